@@ -94,8 +94,10 @@ struct Shares {
   double product, own_heights, two_noises, without_force, without_force_at_own, with_force, length_error_percent;
 };
 
-double correlation(const asperity::Recording& recording, const asperity::TipMotion& motion) {
-  const asperity::BasePathResult base = asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, {});
+// On the surface's length, as the result beside it has it: `on_surface` is surface's over tip's.
+double correlation(const asperity::Recording& recording, const asperity::TipMotion& motion, double on_surface) {
+  asperity::BasePathResult base = asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, {});
+  for (double& s_m : base.path.s_m) s_m *= on_surface;
   const asperity::Profile profile = asperity::make_profile(motion, base.path, base.contact, {});
   return asperity::measure_accuracy(recording, motion, profile, {}).profile->correlation;
 }
@@ -174,6 +176,9 @@ Shares judge(const asperity::Recording& recording) {
     for (std::size_t i = 0; i < lines; ++i) e[i] = c.measured[i] - c.gain[i] * h[i];
     error.push_back(density(e, lines));
   }
+  const std::vector<double>& tip_s_m = result.base.tip_s_m;
+  const double on_surface =
+      tip_s_m.empty() ? 1.0 : result.base.length_m / *std::max_element(tip_s_m.begin(), tip_s_m.end());
   // The correlation of these heights at the true positions.
   const auto judge_heights = [&](const std::vector<double>& estimate_m) {
     asperity::TipMotion oracle = motion;
@@ -182,7 +187,7 @@ Shares judge(const asperity::Recording& recording) {
       oracle.p_world_tip_m[i] =
           Eigen::Vector3d(true_m[0][i], true_m[1][i], true_m[2][i]) + off_m * result.base.path.n_world[i];
     }
-    return correlation(recording, oracle);
+    return correlation(recording, oracle, on_surface);
   };
   std::vector<double> own_m(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -194,7 +199,7 @@ Shares judge(const asperity::Recording& recording) {
       if (std::isfinite(estimate_m[i]))
         oracle.p_world_tip_m[i] += (estimate_m[i] - own_m[i]) * result.base.path.n_world[i];
     }
-    return correlation(recording, oracle);
+    return correlation(recording, oracle, on_surface);
   };
   const auto with_channels = [&](std::size_t count, bool knows_surface) {
     Spectrum best(2 * lines, 0.0);

@@ -126,6 +126,15 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.samples = recording.probe.size();
 }
 
+// The standard error of the length of the tip's own path, which the poses' has to agree with: without that of how much
+// further above it the surface is.
+double without_indentation(double length_stderr_m, const BasePathResult& base) {
+  if (base.tip_s_m.empty() || !(base.indentation_m > 0.0)) return length_stderr_m;
+  const double tip_m = *std::max_element(base.tip_s_m.begin(), base.tip_s_m.end());
+  const double lift_sigma_m = (base.length_m - tip_m) * base.indentation_sigma_m / base.indentation_m;
+  return std::sqrt(std::max(0.0, length_stderr_m * length_stderr_m - lift_sigma_m * lift_sigma_m));
+}
+
 }  // namespace
 
 PoseEvidence pose_evidence(const RegistrationResult& registration) {
@@ -241,8 +250,9 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.error_known = profile.size() == 0 || std::any_of(profile.sigma_m.begin(), profile.sigma_m.end(),
                                                        [](double sigma_m) { return std::isfinite(sigma_m); });
   out.length_m = std::isfinite(tracker.length_m) ? tracker.length_m : length_m(profile);
-  out.length_stderr_m =
-      std::isfinite(result.noise.length_stderr_m) ? result.noise.length_stderr_m : tracker.length_stderr_m;
+  out.length_stderr_m = std::isfinite(result.noise.length_stderr_m)
+                            ? without_indentation(result.noise.length_stderr_m, result.base)
+                            : tracker.length_stderr_m;
   out.tracker_length_m = tracker.tracker_length_m;
   out.tracker_length_stderr_m = tracker.tracker_length_stderr_m;
   out.texture_rms_m = result.noise.texture_rms_m;

@@ -218,5 +218,16 @@ TEST(CompareWithTracker, PosesBetweenSamplesAreNotApart) {
   EXPECT_NEAR(c.departure_m, 1.54 * 20e-6, 3e-6);
 }
 
+// The poses go where the tip goes, and not over the surface above it.
+TEST(CompareWithTracker, OfASoftBodyTheTipsPathIsCompared) {
+  Sweep sweep(0.05, 0.5, 0.2e-3);
+  const TrackerComparison before = compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base);
+  sweep.base.tip_s_m = sweep.base.path.s_m;
+  for (double& s_m : sweep.base.path.s_m) s_m *= 1.02;
+  const TrackerComparison after = compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base);
+  EXPECT_GT(before.length_m, 0.1);
+  EXPECT_EQ(after.length_m, before.length_m);
+}
+
 }  // namespace
 }  // namespace asperity

@@ -228,7 +228,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.typical_added_rms_m = 1e-3 * std::sqrt(typical_added);
   noise.typical_misplaced_rms_m = 1e-3 * std::sqrt(typical_misplaced);
   const double typical_noise = typical_added + typical_misplaced;
-  noise.snr = std::max(0.0, typical_measured - typical_added) / typical_noise;
+  // Where the noise was made as small as what was measured, their difference is rounding.
+  noise.snr = most_share < 1.0 ? 0.0 : std::max(0.0, typical_measured - typical_added) / typical_noise;
   const double most = 1.0 + kSure * relative;
   noise.snr_low = std::max(0.0, typical_measured - most * typical_added) / (most * typical_noise);
   // Misplaced heights are as high as before: of how rough it is they tell as much.

@@ -27,13 +27,15 @@ std::vector<Knot> find_knots(const BasePath& path, std::span<const char> contact
       from = i;
       out.push_back({path.s_m[i], path.s_m[i]});
     }
-    sum_m += std::isfinite(indentation_m[i]) ? indentation_m[i] : 0.0;
-    count += 1.0;
+    if (std::isfinite(indentation_m[i])) {
+      sum_m += indentation_m[i];
+      count += 1.0;
+    }
     const double step_m = path.s_m[i] - path.s_m[from];
-    if (step_m < kStep_m) continue;
+    if (!(step_m >= kStep_m)) continue;
     const Eigen::Vector3d along_m = path.p_world_m[i] - path.p_world_m[from];
     const double turned = along_m.norm() > 0.0 ? along_m.normalized().dot(path.n_world[i] - path.n_world[from]) : 0.0;
-    const double surface_m = std::max(step_m + sum_m / count * turned, kShortest * step_m);
+    const double surface_m = std::max(step_m + (count > 0.0 ? sum_m / count : 0.0) * turned, kShortest * step_m);
     out.push_back({path.s_m[i], out.back().on_surface_m + surface_m});
     from = i;
     sum_m = count = 0.0;

@@ -33,7 +33,8 @@ std::vector<Eigen::Vector2d> unroll_path(const BasePath& path, std::span<const d
       heading_rad += std::atan2(normal.dot(from.cross(along)), from.dot(along));
     }
     before = piece_m;
-    flat_m.emplace_back(flat_m.back() + piece_m.norm() * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
+    const double length_m = path.s_m[nodes[k + 1]] - path.s_m[nodes[k]];  // on the surface, above the tip's path
+    flat_m.emplace_back(flat_m.back() + length_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
   }
 
   std::vector<Eigen::Vector2d> out;

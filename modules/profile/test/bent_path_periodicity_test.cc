@@ -219,6 +219,10 @@ TEST(UnrollPath, APathOnACylinderIsThatOnTheSheet) {
     }
   }
   EXPECT_TRUE(unroll_path(BasePath{}, path.s_m).empty());
+  // Lengths on the surface above the tip's path make a larger sheet.
+  for (double& s : path.s_m) s *= 1.02;
+  const std::vector<Eigen::Vector2d> above_m = unroll_path(path, path.s_m);
+  EXPECT_NEAR((above_m[7900] - above_m[0]).norm(), 1.02 * (sheet_m[7900] - sheet_m[0]).norm(), 4e-3 * 0.08);
 }
 
 }  // namespace

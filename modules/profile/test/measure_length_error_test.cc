@@ -33,8 +33,8 @@ Known know(const std::function<Point(double)>& path, double seconds) {
   return out;
 }
 
-LengthErrors errors_of(const Known& k, double tip_radius_m = 0.0, double indentation_m = 0.0) {
-  return measure_length_error(k.scan.motion, k.base, k.scan.tip_in_marker_m, tip_radius_m, indentation_m);
+LengthErrors errors_of(const Known& k, double tip_radius_m = 0.0, double indentation_sigma_m = 0.0) {
+  return measure_length_error(k.scan.motion, k.base, k.scan.tip_in_marker_m, tip_radius_m, indentation_sigma_m);
 }
 
 TEST(LengthError, OfAStraightStrokeIsThatOfItsTwoEnds) {

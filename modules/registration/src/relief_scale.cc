@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kTimes = 3;  // that the moving mean is taken off
 constexpr double kLongest = 2.5;   // block, and the moving mean, over the shortest block
-constexpr double kBlocks = 4.0;    // of the longest in what the moving means leave: fewer are alike by chance
+// Of the longest in what the moving means leave. Fewer are alike by chance: then a longer block is worth more.
+constexpr double kBlocks = 4.0, kFewestBlocks = 2.0;
 
 template <class T>
 std::vector<T> running_sums(const std::vector<T>& x, T zero) {
@@ -65,17 +66,17 @@ double white_variance(std::size_t length, std::size_t half) {
 }  // namespace
 
 ReliefScale measure_relief(std::span<const Eigen::Vector3d> x_m, std::span<const double> s_m, double shortest_m) {
-  constexpr double kAlike = 4.0;   // variances that a longer block is not worth
-  constexpr double kFewest = 4.0;  // points of a shortest block
+  constexpr double kAlike = 4.0, kAlikeOfFew = 12.0;  // variances that a longer block is not worth
+  constexpr double kFewest = 4.0;                     // points of a shortest block
   ReliefScale out{shortest_m, 0.0};
   if (x_m.size() < 2 || !(s_m.back() > s_m.front())) return out;
   const double spacing_m = (s_m.back() - s_m.front()) / static_cast<double>(x_m.size() - 1);
   const double shortest = shortest_m / spacing_m;
   if (!(shortest >= kFewest)) return out;
   const auto half = static_cast<std::size_t>(std::lround(0.5 * kLongest * shortest));
-  if (static_cast<double>(x_m.size()) < static_cast<double>(4 * kTimes * half) + kBlocks * kLongest * shortest) {
-    return out;
-  }
+  const double blocks =
+      (static_cast<double>(x_m.size()) - static_cast<double>(4 * kTimes * half)) / (kLongest * shortest);
+  if (blocks < kFewestBlocks) return out;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   const std::vector<Eigen::Vector3d> r_m =
       without_bends(std::vector<Eigen::Vector3d>(x_m.begin(), x_m.end()), half, zero);
@@ -89,7 +90,7 @@ ReliefScale measure_relief(std::span<const Eigen::Vector3d> x_m, std::span<const
                     white_variance(n, half));
   }
   const auto found = std::min_element(ratio.begin(), ratio.end());
-  if (!(kAlike * *found < ratio.front())) return out;
+  if (!((blocks < kBlocks ? kAlikeOfFew : kAlike) * *found < ratio.front())) return out;
   out.block_m = static_cast<double>(first + static_cast<std::size_t>(found - ratio.begin())) * spacing_m;
   out.rms_m = std::sqrt(sum_of_squared_means(sums, 1, square) / static_cast<double>(r_m.size()));
   return out;

@@ -45,7 +45,7 @@ TEST(ReliefScale, ItIsTheShortestForAReliefOfNoise) {
   }
 }
 
-// Of few blocks the means are alike by chance. From the length on at which a period is looked for, 25 times the
+// Of few blocks the means are alike by chance. From the length on at which a period is looked for, 20 times the
 // shortest block, chance finds one on at most 2 of 100 paths; shorter ones have none.
 TEST(ReliefScale, ShortPathsOfNoiseHaveNoPeriod) {
   for (const double length_m : {36e-3, 40e-3, 45e-3, 51e-3, 60e-3}) {
@@ -56,8 +56,13 @@ TEST(ReliefScale, ShortPathsOfNoiseHaveNoPeriod) {
       const auto noise = [&](double) { return before_m = 0.7 * before_m + 30e-6 * random.normal(); };
       found += over_ball(noise, length_m).block_m == kShortest_m ? 0 : 1;
     }
-    EXPECT_LE(found, length_m < 50e-3 ? 0 : 6) << length_m;
+    EXPECT_LE(found, length_m < 40e-3 ? 0 : 6) << length_m;
   }
+}
+
+TEST(ReliefScale, APathOf45MillimetresOverHolesHasTheirPeriod) {
+  const auto hole = [&](double s) { return -1e-3 * std::abs(std::remainder(s, 3.3e-3)) / 3.3e-3; };
+  EXPECT_NEAR(over_ball(hole, 45e-3).block_m, 3.3e-3, kSpacing_m);
 }
 
 TEST(ReliefScale, ABallHasNone) {

@@ -204,10 +204,11 @@ void judge_length(const ScanEvidence& e, Verdicts& out) {
   const double own_m = std::isfinite(e.length_stderr_m) ? e.length_stderr_m : 0.0;
   const double bound_m = kTwoSided95 * std::hypot(own_m, e.tracker_length_stderr_m);
   if (!(std::abs(e.length_m - e.tracker_length_m) > bound_m)) return;
-  out.push_back(make_verdict("length_disagrees",
-                             fmt::format("the path is {:.2f} mm long, by the tracker's poses alone {:.2f} ± {:.2f} mm "
-                                         "(joint 95 %)",
-                                         1e3 * e.length_m, 1e3 * e.tracker_length_m, 1e3 * bound_m)));
+  out.push_back(
+      make_verdict("length_disagrees",
+                   fmt::format("the tip's path is {:.2f} mm long, by the tracker's poses alone {:.2f} ± {:.2f} mm "
+                               "(joint 95 %)",
+                               1e3 * e.length_m, 1e3 * e.tracker_length_m, 1e3 * bound_m)));
 }
 
 void judge_noise(const ScanEvidence& e, Verdicts& out) {

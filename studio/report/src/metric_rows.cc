@@ -143,7 +143,8 @@ constexpr MetricRow kTexture[] = {
 constexpr MetricRow kBase[] = {
     text_row("base.shape", "Shape"),
     pure("base.shape_probability", "Probability of that shape"),
-    with_error(mm("base.radius_m", "Radius"), "base.radius_stderr_m"),
+    hinted(with_error(mm("base.radius_m", "Radius"), "base.radius_stderr_m"), "of the tip's path"),
+    with_error(um("base.indentation_m", "Indentation of the tip, mean"), "base.indentation_stderr_m"),
     pure("base.normal_sigma_deg", "Uncertainty of the normal", "°"),
     pure("base.probe_tilt_deg", "Tilt of the probe", "°"),
     um("base.base_rms_m", "Departure from the shape, RMS"),

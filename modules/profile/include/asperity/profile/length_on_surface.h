@@ -14,7 +14,7 @@ namespace asperity {
 // which s' is a straight line of s; δ of a step is the mean over its samples in contact. Where the path turns back t
 // and dn both change sign. s' rises where s does: a step that would shorten by more than half counts half.
 //
-// `contact` is one a sample; samples of which the indentation is not finite count as 0. Throws Error if sizes differ.
+// `contact` is one a sample; samples of which the indentation is not finite do not count. Throws Error if sizes differ.
 std::vector<double> length_on_surface(const BasePath& path, std::span<const char> contact,
                                       std::span<const double> indentation_m);
 

@@ -16,7 +16,8 @@ struct LikelyCompliance {
 //
 //   E[cⁿ] = ∫ cⁿ p((c − measured)/stderr) d(ln c) / ∫ p((c − measured)/stderr) d(ln c),
 //
-// p being Student's distribution with the degrees of freedom that the standard error has, infinity for a known one.
+// p being Student's distribution with the degrees of freedom that the standard error has, infinity for a known
+// one; they are above 0.
 // A precise measurement stays what it is; without one (not finite) it is the prior's 0.145 ± 0.227 mm/N.
 LikelyCompliance likely_compliance(double measured_mm_per_N, double stderr_mm_per_N,
                                    double degrees_of_freedom = std::numeric_limits<double>::infinity());
