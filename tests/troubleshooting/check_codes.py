@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/troubleshooting.md has a row with an anchor for each verdict code, with its severity, and for each exit code, and no
-other: check_codes.py SOURCE. The codes are those of modules/verdict/src/verdict_codes.cc, the exit codes those of the table of
-docs/command-line.md."""
+other; the messages that it quotes are texts of the sources: check_codes.py SOURCE. The codes are those of
+modules/verdict/src/verdict_codes.cc, the exit codes those of the table of docs/command-line.md."""
 import os
 import re
 import sys
@@ -23,6 +23,13 @@ page_exits = {number for cell in re.findall(r'^\| <a id="exit-\d+"></a>([\d, ]+)
 faults = [f"not in docs/troubleshooting.md: {code}" for code in sorted(codes - rows)]
 faults += [f"in docs/troubleshooting.md, but not a code: {row}" for row in sorted(rows - codes)]
 faults += [f"exit code {code} is on one page only" for code in sorted(exits ^ page_exits)]
+sources = "".join(re.sub(r'"\s*\n\s*"', "", read(os.path.relpath(os.path.join(folder, name), sys.argv[1])))
+                  for top in ("modules", "apps") for folder, _, names in os.walk(os.path.join(sys.argv[1], top))
+                  for name in names if name.endswith(".cc"))
+messages = re.findall(r"^\| `([^`]+)` \|", page.split("\n## Errors that occur often\n")[1].split("\n## ")[0], re.M)
+faults += [f"no source has the message '{message}'" for message in messages if message not in sources]
+if not messages:
+    faults.append("no messages are quoted")
 if not codes or not exits:
     faults.append("no codes were found in the sources")
 for fault in faults:
