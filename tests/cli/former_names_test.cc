@@ -1,4 +1,4 @@
-// Settings by the names that they had before (docs/glossary.md): with --set and in a file. Only the present names are
+// Settings by the names that they had before (docs/names.md): with --set and in a file. Only the present names are
 // written.
 #include <gmock/gmock.h>
 #include <string>
