@@ -33,9 +33,15 @@ std::vector<Eigen::Vector2d> unroll_path(const BasePath& path, std::span<const d
       heading_rad += std::atan2(normal.dot(from.cross(along)), from.dot(along));
     }
     before = piece_m;
-    const double length_m = path.s_m[nodes[k + 1]] - path.s_m[nodes[k]];  // on the surface, above the tip's path
-    flat_m.emplace_back(flat_m.back() + length_m * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
+    flat_m.emplace_back(flat_m.back() + piece_m.norm() * Eigen::Vector2d(std::cos(heading_rad), std::sin(heading_rad)));
   }
+
+  // As large as the arc length says, which may be that of the surface above the tip's path.
+  double chords_m = 0.0;
+  for (std::size_t j = 1; j < flat_m.size(); ++j) chords_m += (flat_m[j] - flat_m[j - 1]).norm();
+  if (!(chords_m > 0.0)) return {};
+  const double arc_m = path.s_m[nodes.back()] - path.s_m[nodes.front()];
+  for (Eigen::Vector2d& p_m : flat_m) p_m *= arc_m / chords_m;
 
   std::vector<Eigen::Vector2d> out;
   out.reserve(s_m.size());
