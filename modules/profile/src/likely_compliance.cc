@@ -7,9 +7,9 @@ namespace asperity {
 
 namespace {
 
-constexpr double kHardest_mm_per_N = 1e-3;
+constexpr double kHardest_mm_per_N = 1e-4;
 constexpr double kSoftest_mm_per_N = 1.0;
-constexpr int kSteps = 2000;  // 0.35 % each
+constexpr int kSteps = 2600;  // 0.35 % each
 
 }  // namespace
 
