@@ -161,4 +161,8 @@ int run_command_line(int argc, char** argv) {
 
 }  // namespace asperity::app
 
-int main(int argc, char** argv) { return asperity::app::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  const int code = asperity::app::run_command_line(argc, argv);
+  asperity::command_ended();
+  return code;
+}

@@ -15,6 +15,7 @@
 #include "asperity/testkit/temp_dir.h"
 #include "pebble.h"
 #include "run_asperity.h"
+#include "wait_until_begun.h"
 
 namespace asperity::cli {
 namespace {
@@ -280,8 +281,10 @@ TEST_F(RegisterInto, WhatDoesNotFitIsRefusedAndNothingIsChanged) {
 TEST_F(RegisterInto, InterruptedTheOldSceneIsWhole) {
   const std::string scene = copy();
   const std::vector<std::pair<std::string, std::string>> before = contents(own("scene"));
-  const Outcome stopped =
-      run_and_signal({"register", at("b"), "--into", scene}, SIGTERM, std::chrono::milliseconds(50));
+  const Outcome stopped = run_and_meddle({"register", at("b"), "--into", scene}, [&](pid_t process) {
+    EXPECT_TRUE(wait_until_begun(own("scene")));
+    ::kill(process, SIGTERM);
+  });
   if (stopped.code != 0 && stopped.code != 3) {
     EXPECT_EQ(contents(own("scene")), before);
   } else {

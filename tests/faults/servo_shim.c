@@ -2,7 +2,7 @@
  * absolute times of CLOCK_MONOTONIC; it is counted from its SERVO_FROM-th wait on (200: it has warmed up by then) to
  * its last one. At the end SERVO_COUNTS=FILE gets: waits, allocations (malloc, calloc, realloc, aligned_alloc,
  * posix_memalign, and free), mmap and munmap, mutex locks (also trylock and condition waits), page faults of that
- * thread. With SERVO_NO_LOCK set mlockall fails. */
+ * thread; and every SERVO_EVERY-th wait what there is so far. With SERVO_NO_LOCK set mlockall fails. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -24,7 +24,8 @@ typedef struct {
 static __thread counts s_now; /* of this thread, since it began to be counted */
 static __thread int s_counting;
 static __thread long s_all_waits, s_faults_before;
-static counts s_told; /* of the thread that waited most */
+static counts s_told;   /* of the thread that waited most */
+static int s_file = -1; /* SERVO_COUNTS, open while there is something to count */
 
 /* glibc's own, which need no looking up: dlsym itself allocates. */
 extern void* __libc_malloc(size_t);
@@ -93,6 +94,21 @@ static long page_faults(void) {
   return usage.ru_minflt + usage.ru_majflt;
 }
 
+enum { SERVO_EVERY = 32 };
+
+static void open_counts(void) {
+  const char* path = getenv("SERVO_COUNTS");
+  if (path != NULL && s_file < 0) s_file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+}
+
+/* Always as long, so that each replaces the one before. */
+static void write_counts(const counts* now) {
+  char line[160];
+  const int length = snprintf(line, sizeof line, "%12ld %12ld %12ld %12ld %12ld\n", now->waits, now->allocations,
+                              now->maps, now->locks, now->faults);
+  syscall(SYS_pwrite64, s_file, line, (size_t)length, (off_t)0);
+}
+
 int clock_nanosleep(clockid_t clock, int flags, const struct timespec* until, struct timespec* left) {
   static __typeof__(&clock_nanosleep) real;
   static long from;
@@ -105,8 +121,12 @@ int clock_nanosleep(clockid_t clock, int flags, const struct timespec* until, st
       ++s_now.waits;
       s_now.faults = page_faults() - s_faults_before;
       /* Told as of this wait: what the thread does after its last one is its end. */
-      if (s_now.waits > s_told.waits) s_told = s_now;
+      if (s_now.waits > s_told.waits) {
+        s_told = s_now;
+        if (s_now.waits % SERVO_EVERY == 0) write_counts(&s_told);
+      }
     } else if (++s_all_waits == from) {
+      open_counts();
       s_faults_before = page_faults();
       s_counting = 1;
     }
@@ -115,13 +135,6 @@ int clock_nanosleep(clockid_t clock, int flags, const struct timespec* until, st
 }
 
 __attribute__((destructor)) static void tell(void) {
-  const char* path = getenv("SERVO_COUNTS");
-  if (path == NULL) return;
-  char line[160];
-  const int length = snprintf(line, sizeof line, "%ld %ld %ld %ld %ld\n", s_told.waits, s_told.allocations, s_told.maps,
-                              s_told.locks, s_told.faults);
-  const int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  if (file < 0) return;
-  syscall(SYS_write, file, line, (size_t)length);
-  syscall(SYS_close, file);
+  open_counts();
+  if (s_file >= 0) write_counts(&s_told);
 }

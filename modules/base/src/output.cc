@@ -22,8 +22,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Is never destroyed: the thread that waits for signals may come while the program leaves.
+template <class Value>
+union Lasting {
+  Lasting() : value() {}
+  ~Lasting() {}  // NOLINT(modernize-use-equals-default): a default one is deleted
+  Value value;
+};
+
 std::mutex unfinished_mutex;
-std::set<fs::path> unfinished;
+Lasting<std::set<fs::path>> lasting_unfinished;
+std::set<fs::path>& unfinished = lasting_unfinished.value;
 
 void mark_unfinished(const fs::path& path) {
   const std::lock_guard lock(unfinished_mutex);
@@ -85,7 +94,8 @@ void sync(const fs::path& path, const fs::path& target) {
 
 // What was put in place, for those who ask what an interrupted program leaves.
 constexpr std::size_t kMostNamed = 3;
-std::vector<fs::path> in_place;
+Lasting<std::vector<fs::path>> lasting_in_place;
+std::vector<fs::path>& in_place = lasting_in_place.value;
 std::size_t in_place_count = 0;
 
 // A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is

@@ -62,7 +62,7 @@ class DeviceConformance : public testing::TestWithParam<ConformanceCase> {
   bool tick_until(HapticDevice& device, double limit_s, const std::function<Eigen::Vector3d(const DeviceReading&)>& law,
                   const std::function<bool(const DeviceReading&)>& done);
 
-  // Waits until the motors' output is zero; false after a second.
+  // Waits until the motors' output is zero; false after ten seconds.
   bool motors_become_silent();
 
   std::unique_ptr<DeviceRig> rig_;

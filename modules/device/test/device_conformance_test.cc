@@ -5,6 +5,7 @@
 #include "asperity/base/error.h"
 #include "asperity/testkit/lateness_watch.h"
 #include "conformance.h"
+#include "serve_device.h"
 
 namespace asperity::testing_devices {
 
@@ -39,11 +40,7 @@ bool DeviceConformance::tick_until(HapticDevice& device, double limit_s,
 }
 
 bool DeviceConformance::motors_become_silent() {
-  for (int i = 0; i < 1000; ++i) {
-    if (rig_->motor_output() == Eigen::Vector3d::Zero()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
+  return comes_true([this] { return rig_->motor_output() == Eigen::Vector3d::Zero(); });
 }
 
 TEST_P(DeviceConformance, OpensSaysWhatItIsAndStartsWithoutForce) {

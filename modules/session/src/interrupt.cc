@@ -27,6 +27,17 @@ void wait_for_zero_force() {
   }
 }
 
+// A second for the program to end; a minute while something is brought to its end, and a second from then on. A second
+// signal ends it.
+void wait_for_the_end(const sigset_t& set) {
+  constexpr int kMostFinish_s = 60;
+  const timespec second{1, 0};
+  for (int waited_s = 0; waited_s < kMostFinish_s; ++waited_s) {
+    const bool held = finishes_held > 0;
+    if (sigtimedwait(&set, nullptr, &second) > 0 || (!held && finishes_held == 0)) return;
+  }
+}
+
 }  // namespace
 
 void watch_interrupts(void (*say)(std::string_view)) {
@@ -52,11 +63,7 @@ void watch_interrupts(void (*say)(std::string_view)) {
     }
     signal_seen = number;
     stop_asked = true;
-    const timespec patience{1, 0};
-    constexpr int kMostFinish_s = 60;
-    for (int waited_s = 0; waited_s == 0 || (finishes_held > 0 && waited_s < kMostFinish_s); ++waited_s) {
-      if (sigtimedwait(&set, nullptr, &patience) > 0) break;
-    }
+    wait_for_the_end(set);
     wait_for_zero_force();
     remove_unfinished_output();
     say(interrupted_text());
@@ -69,6 +76,8 @@ ForceHold::~ForceHold() { --forces_held; }
 
 FinishHold::FinishHold() { ++finishes_held; }
 FinishHold::~FinishHold() { --finishes_held; }
+
+void command_ended() { ++finishes_held; }
 
 std::string interrupted_text() {
   const std::string kept = outputs_in_place();

@@ -27,8 +27,8 @@ class ForceHold {
   ForceHold& operator=(const ForceHold&) = delete;
 };
 
-// While one lives, something is being brought to its end: after the signal the program has a minute for that. A second
-// signal ends it all the same.
+// While one lives, something is being brought to its end: after the signal the program has a minute for that, and a
+// second from its end on. A second signal ends it all the same.
 class FinishHold {
  public:
   FinishHold();
@@ -36,6 +36,10 @@ class FinishHold {
   FinishHold(const FinishHold&) = delete;
   FinishHold& operator=(const FinishHold&) = delete;
 };
+
+// The command has ended and its code is known: a signal that came no longer changes it, however long the process takes
+// to leave (a minute at most).
+void command_ended();
 
 // The same for those that watch a flag: turns true with interrupted(), and stays true.
 const std::atomic<bool>& interrupt_flag();
