@@ -66,9 +66,9 @@ TEST_F(ImportMapped, RefusesWhatCannotBe) {
 
 TEST_F(ImportMapped, TheTrackersNoiseCanBeStated) {
   const std::string rec = (dir_ / "rec").string();
-  // Poses that do not change at all have none that could be estimated.
+  // Rotations that do not change have no noise that could be estimated.
   const Outcome assumed = run(words({"--dry-run"}));
-  EXPECT_THAT(assumed.out, HasSubstr("noise       a pose's position 0.05 mm, rotation 1 mrad (assumed)"));
+  EXPECT_THAT(assumed.out, HasSubstr("mm (estimated, assumed), rotation 1 mrad (assumed)"));
   const Outcome stated = run(words({"-o", rec, "--tracker-sigma", "0.2mm", "--tracker-sigma-deg", "0.25"}));
   EXPECT_EQ(stated.code, 0) << stated.err;
   EXPECT_THAT(stated.out, HasSubstr("noise       a pose's position 0.2 mm, rotation 4.4 mrad (stated)"));
@@ -77,7 +77,7 @@ TEST_F(ImportMapped, TheTrackersNoiseCanBeStated) {
   for (const auto& [name, text] : files) {
     if (name == "calibration.json") calibration = text;
   }
-  EXPECT_THAT(calibration, HasSubstr("0.0002"));
+  EXPECT_THAT(calibration, HasSubstr("[2e-04, 2e-04, 2e-04]"));
   EXPECT_THAT(calibration, HasSubstr("0.00436332"));  // 0.25 π / 180
   EXPECT_THAT(calibration, HasSubstr("tracker_sigma_from"));
   EXPECT_EQ(run(words({"-o", rec, "--tracker-sigma", "0mm"})).code, 2);

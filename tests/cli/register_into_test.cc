@@ -231,8 +231,12 @@ TEST_F(RegisterInto, PaintingAndScansStayWhenTheOtherIsAdded) {
 TEST_F(RegisterInto, AnInvalidPoseLeavesTheSceneAsItWas) {
   const std::string scene = copy();
   const std::vector<std::pair<std::string, std::string>> before = contents(own("scene"));
-  // From 40 mm beside the object no pose can be valid.
-  const Words words{"register", at("b"), "--into", scene, "--guess=0.04,0.04,0.04,0,0.6,0.8,0"};
+  // A straight path of 10 mm fits anywhere.
+  std::string points = "px_m,py_m,pz_m\n";
+  for (int i = 0; i < 60; ++i) points += std::to_string(0.01 * i / 60.0) + ",0,0\n";
+  write_text(dir_ / "line.csv", points);
+  write_text(dir_ / "wave.texture.json", kWave);
+  const Words words{"register", own("line.csv"), "--into", scene, "--texture", own("wave.texture.json")};
   const Outcome invalid = run(words);
   EXPECT_EQ(invalid.code, 3) << invalid.err;
   EXPECT_THAT(invalid.err, HasSubstr("scene.json: unchanged, for the pose is invalid; --keep-invalid adds it"));
