@@ -136,6 +136,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
       calibration.tracker.sigma_rotation_rad = noise.sigma_rotation_rad;
       calibration.tracker.noise_model = noise.model;
       if (!noise.moving) calibration.tracker.slow_sigma_m = noise.slow_position_m;
+      calibration.extra.erase("tracker_sigma_from");   // of an import
       calibration.extra.erase("tracker_noise_model");  // of another form than ours, with other figures
     };
     return out;

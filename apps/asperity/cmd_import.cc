@@ -83,6 +83,12 @@ class ImportCommand : public Command {
     parser().add_flag("--left-handed", left_handed_, "The world's and the body's axes are left-handed");
     parser().add_option("--tip", tip_, "The tip in the body's axes: 0mm,0mm,-120mm")->type_name("X,Y,Z");
     parser().add_option("--pose-noise", noise_, "Add noise along the world's axes")->type_name("X,Y,Z");
+    parser()
+        .add_option("--tracker-sigma", sigma_, "White noise of a pose's position, each axis; estimated unless stated")
+        ->type_name("LENGTH");
+    parser()
+        .add_option("--tracker-sigma-deg", sigma_deg_, "White noise of a pose's rotation about each axis, degrees")
+        ->type_name("DEGREES");
     parser().add_option("--mapping", mapping_file_, "Read the mapping from a file")->type_name("FILE.toml");
     parser()
         .add_option("--save-mapping", save_mapping_, "Write the mapping with what was guessed")
@@ -115,6 +121,14 @@ class ImportCommand : public Command {
     constexpr double kMostForce_N = 1e3;
     if (!stroke_force_.empty()) stroke_config_.force_N = force_option_N("--stroke-force", stroke_force_, kMostForce_N);
     if (!noise_.empty()) config_.pose_noise_m = lengths_option_m("--pose-noise", noise_);
+    if (!sigma_.empty())
+      config_.tracker_sigma_m = positive("--tracker-sigma", length_option_m("--tracker-sigma", sigma_));
+    if (!sigma_deg_.empty()) {
+      constexpr double kMost_deg = 57.0, kDegree_rad = 0.017453292519943295;
+      config_.tracker_sigma_rad =
+          kDegree_rad *
+          positive("--tracker-sigma-deg", number_option("--tracker-sigma-deg", sigma_deg_, "deg", 0.0, kMost_deg));
+    }
     if (!tip_.empty()) {
       const Eigen::Vector3d tip = point_option_m("--tip", tip_);
       mapping_.tip_m = {tip.x(), tip.y(), tip.z()};
@@ -165,11 +179,19 @@ class ImportCommand : public Command {
     observer.update("importing", 1.0);
     commit_output(folder, output_);
     Json details = import_json(tables, motion);
-    report(recording, recording.problems, import_summary_text(tables) + import_checks_text(motion), &details);
+    report(recording, recording.problems,
+           import_summary_text(tables) + import_checks_text(motion) +
+               tracker_sigma_text(tracker_sigma(motion.noise, config_)),
+           &details);
     return kDone;
   }
 
  private:
+  static double positive(const char* option, double value) {
+    if (!(value > 0.0)) throw UsageError(std::string(option) + ": must be above 0");
+    return value;
+  }
+
   std::string imu_file() const { return imu_.empty() ? std::string() : imu_.front(); }
 
   int run_stroke() {
@@ -207,13 +229,18 @@ class ImportCommand : public Command {
   // The one form of file that needs no mapping.
   int run_fixed(const Observer& observer) {
     OutputFolder folder(output_, is_replaceable_recording);
-    const ImportInput input = read_imu_pose(imu_file(), pose_, object_pose_);
+    ImportInput input = read_imu_pose(imu_file(), pose_, object_pose_);
     observer.update("importing", 0.5);
-    const Recording recording = import_imu_pose(input, config_);
+    const TrackerSigma sigma = tracker_sigma(estimate_pose_noise({input.pose_t_ns, input.T_world_body}), config_);
+    input.sigma_position_m = sigma.position_m;
+    input.sigma_rotation_rad = sigma.rotation_rad;
+    Recording recording = import_imu_pose(input, config_);
+    recording.calibration.extra["tracker_sigma_from"] = {{"position", sigma.position_from},
+                                                         {"rotation", sigma.rotation_from}};
     write_recording(folder.path(), recording);
     observer.update("importing", 1.0);
     commit_output(folder, output_);
-    report(recording, input.problems, {}, nullptr);
+    report(recording, input.problems, tracker_sigma_text(sigma), nullptr);
     return kDone;
   }
 
@@ -232,6 +259,7 @@ class ImportCommand : public Command {
     out["version"] = 1;
     print_json(out.dump_repaired(2));
     std::string text = import_table_text(tables) + import_checks_text(motion);
+    text += tracker_sigma_text(tracker_sigma(motion.noise, config_));
     for (const Problem& problem : motion.streams.problems) text += "note        " + problem.message + "\n";
     for (const ImportDoubt& doubt : motion.checks.doubts) text += "implausible " + doubt_text(doubt, tables) + "\n";
     say(text);
@@ -278,6 +306,8 @@ class ImportCommand : public Command {
   bool left_handed_ = false;
   std::string tip_;
   std::string noise_;
+  std::string sigma_;
+  std::string sigma_deg_;
   std::string mapping_file_;
   std::string save_mapping_;
   bool stroke_ = false;

@@ -105,9 +105,10 @@ std::string result_summary(const ProcessResult& result) {
       return with_error(1e6 * (r.*value), 1e6 * (r.standard_error.*value), 1) + " µm";
     };
     if (std::isfinite(r.Rq_m)) {
-      out += fmt::format("  roughness   Ra {}, Rq {}, Rz {}, RSm {} mm\n", um(&RoughnessParameters::Ra_m),
+      out += fmt::format("  roughness   Ra {}, Rq {}, Rz {}, RSm {}\n", um(&RoughnessParameters::Ra_m),
                          um(&RoughnessParameters::Rq_m), um(&RoughnessParameters::Rz_m),
-                         with_error(1e3 * r.RSm_m, 1e3 * r.standard_error.RSm_m, 3));
+                         std::isfinite(r.RSm_m) ? with_error(1e3 * r.RSm_m, 1e3 * r.standard_error.RSm_m, 3) + " mm"
+                                                : std::string("not determined"));
     } else {
       out += fmt::format(
           "  roughness   not determined: the texture does not stand out of its noise; Rq is at most {:.2g} µm\n",

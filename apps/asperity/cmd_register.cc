@@ -49,6 +49,8 @@ class RegisterCommand : public Command {
                                    "Scene of an earlier registration or painting to add the scans to; one of the same "
                                    "name is replaced. All else in it stays")
                        ->type_name("scene.json");
+    parser().add_flag("--keep-invalid", keep_invalid_,
+                      "With --into: add scans of an invalid pose too; without it the scene stays as it was");
     parser()
         .add_option("--remove", remove_, "Take the scan of this name out of the scene of --into; may be repeated")
         ->type_name("NAME")
@@ -147,16 +149,18 @@ class RegisterCommand : public Command {
     write_registration(place, result, input.scans, std::move(input.onto), listing);
     if (listing) write_listing(place);
     const std::string json = read_file(place / "registration.json", std::uint64_t{1} << 30);
+    const bool added = into_.empty() || result.trustworthy || keep_invalid_;
     if (folder) {
       commit_output(*folder, output_);
-    } else {
+    } else if (added) {
       name_kept(target, scene_folder->commit());
     }
     print_json(trim(json));
-    say(summary(result) + "results in " + printable(target.string(), 200) + "\n");
+    say(summary(result) + (added ? "results in " + printable(target.string(), 200) + "\n" : std::string()));
     for (const Verdict& verdict : result.verdicts) {
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
     }
+    if (!added) print_error(printable(into_, 200) + ": unchanged, for the pose is invalid; --keep-invalid adds it");
     return result.trustworthy ? kDone : kNotTrustworthy;
   }
 
@@ -167,6 +171,7 @@ class RegisterCommand : public Command {
     if (into_.empty() && files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
     if (files_.empty() || (files_.size() == 1 && has_mesh(files_.back())))
       throw UsageError("PATH...: at least one path is needed");
+    if (keep_invalid_ && into_.empty()) throw UsageError("--keep-invalid needs --into, the scene");
     if (!is_date(date_)) throw UsageError("--date: '" + printable(date_, 200) + "' is not a date as 2026-11-24");
   }
 
@@ -332,6 +337,7 @@ class RegisterCommand : public Command {
   std::vector<std::string> remove_;
   std::string mesh_unit_, guess_, align_, picks_, output_, method_, placement_, into_, date_;
   bool under_ = false;
+  bool keep_invalid_ = false;
   RegisterConfig config_;
 };
 

@@ -64,5 +64,31 @@ TEST_F(ImportMapped, RefusesWhatCannotBe) {
   EXPECT_EQ(run(words({})).code, 2);  // neither --output nor --dry-run
 }
 
+TEST_F(ImportMapped, TheTrackersNoiseCanBeStated) {
+  const std::string rec = (dir_ / "rec").string();
+  // Rotations that do not change have no noise that could be estimated.
+  const Outcome assumed = run(words({"--dry-run"}));
+  EXPECT_THAT(assumed.out, HasSubstr("mm (estimated, assumed), rotation 1 mrad (assumed)"));
+  const Outcome stated = run(words({"-o", rec, "--tracker-sigma", "0.2mm", "--tracker-sigma-deg", "0.25"}));
+  EXPECT_EQ(stated.code, 0) << stated.err;
+  EXPECT_THAT(stated.out, HasSubstr("noise       a pose's position 0.2 mm, rotation 4.4 mrad (stated)"));
+  const std::vector<std::pair<std::string, std::string>> files = contents(rec + "/");
+  std::string calibration;
+  for (const auto& [name, text] : files) {
+    if (name == "calibration.json") calibration = text;
+  }
+  EXPECT_THAT(calibration, HasSubstr("[2e-04, 2e-04, 2e-04]"));
+  EXPECT_THAT(calibration, HasSubstr("0.00436332"));  // 0.25 π / 180
+  EXPECT_THAT(calibration, HasSubstr("tracker_sigma_from"));
+  EXPECT_EQ(run(words({"-o", rec, "--tracker-sigma", "0mm"})).code, 2);
+  EXPECT_EQ(run(words({"-o", rec, "--tracker-sigma-deg", "x"})).code, 2);
+}
+
+TEST_F(ImportMapped, AForceAmongTheSensorsColumnsIsSentToItsOption) {
+  const Outcome outcome = run(words({"--dry-run", "--imu-columns", "f='F'[mN]"}));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--force-columns \"f=F[mN]\""));
+}
+
 }  // namespace
 }  // namespace asperity::cli

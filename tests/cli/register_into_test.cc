@@ -1,4 +1,5 @@
 // Scans and painted textures added to a scene that is there, taken out of it and put in again.
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -72,6 +73,7 @@ class RegisterInto : public testing::Test {
     for (const json& number : truth) numbers += (numbers.empty() ? "" : ",") + number.dump();
     words.insert(words.begin(), "register");
     words.insert(words.end(), {"--guess=" + numbers});
+    if (std::find(words.begin(), words.end(), "--into") != words.end()) words.push_back("--keep-invalid");
     const Outcome done = run(words);
     if (outcome != nullptr) *outcome = done;
     return done.code == 3 ? 0 : done.code;
@@ -227,6 +229,27 @@ TEST_F(RegisterInto, PaintingAndScansStayWhenTheOtherIsAdded) {
   EXPECT_TRUE(fs::exists(fs::path(own("painted")) / "a" / "profile.csv"));
 }
 
+TEST_F(RegisterInto, AnInvalidPoseLeavesTheSceneAsItWas) {
+  const std::string scene = copy();
+  const std::vector<std::pair<std::string, std::string>> before = contents(own("scene"));
+  // A straight path of 10 mm fits anywhere.
+  std::string points = "px_m,py_m,pz_m\n";
+  for (int i = 0; i < 60; ++i) points += std::to_string(0.01 * i / 60.0) + ",0,0\n";
+  write_text(dir_ / "line.csv", points);
+  write_text(dir_ / "wave.texture.json", kWave);
+  const Words words{"register", own("line.csv"), "--into", scene, "--texture", own("wave.texture.json")};
+  const Outcome invalid = run(words);
+  EXPECT_EQ(invalid.code, 3) << invalid.err;
+  EXPECT_THAT(invalid.err, HasSubstr("scene.json: unchanged, for the pose is invalid; --keep-invalid adds it"));
+  EXPECT_THAT(invalid.out, Not(HasSubstr("results in")));
+  EXPECT_EQ(contents(own("scene")), before);
+  Words kept = words;
+  kept.push_back("--keep-invalid");
+  EXPECT_EQ(run(kept).code, 3);
+  EXPECT_EQ(json_of(scene).at("textures").size(), 2u);
+  EXPECT_EQ(run({"register", at("b"), at("pebble.obj"), "-o", own("out"), "--keep-invalid"}).code, 2);
+}
+
 TEST_F(RegisterInto, StrangersFilesAreKeptAndNamed) {
   const std::string scene = copy();
   write_text(dir_ / "scene" / "notes.txt", "mine");
@@ -281,7 +304,7 @@ TEST_F(RegisterInto, WhatDoesNotFitIsRefusedAndNothingIsChanged) {
 TEST_F(RegisterInto, InterruptedTheOldSceneIsWhole) {
   const std::string scene = copy();
   const std::vector<std::pair<std::string, std::string>> before = contents(own("scene"));
-  const Outcome stopped = run_and_meddle({"register", at("b"), "--into", scene}, [&](pid_t process) {
+  const Outcome stopped = run_and_meddle({"register", at("b"), "--into", scene, "--keep-invalid"}, [&](pid_t process) {
     EXPECT_TRUE(wait_until_begun(own("scene")));
     ::kill(process, SIGTERM);
   });

@@ -89,7 +89,7 @@ const std::vector<Writer>& writers() {
        {"register", "@/path.csv", "@/plane.obj", "--mesh-unit", "mm", "--guess", "0,0,0,1,0,0,0", "-o", "#"},
        {"register", "@/path.csv", "@/plane.obj", "--mesh-unit", "mm", "--guess", "0,0,0.0001,1,0,0,0", "-o", "#"}},
       {"register_into",
-       {"register", "@/path.csv", "--into", "#/scene.json", "--guess", "0,0,0,1,0,0,0"},
+       {"register", "@/path.csv", "--into", "#/scene.json", "--guess", "0,0,0,1,0,0,0", "--keep-invalid"},
        {},
        "painted"},
       {"export", {"export", "@/painted", "--to", "gltf", "-o", "#"}, {}},

@@ -256,12 +256,13 @@ TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, 
   check_independent(measured_from);
   TrackerNoise out;
   double longest_s = 0.0;
+  LongestRest rested;
   for (const StaticTracker& recording : recordings) {
     const TrackerStream& tracker = *recording.tracker;
     if (tracker.size() > 1) {
       longest_s = std::max(longest_s, static_cast<double>(tracker.t_ns.back() - tracker.t_ns.front()) * kNanosecond_s);
     }
-    for (const PoseRange range : find_static_intervals(tracker, config)) {
+    for (const PoseRange range : find_static_intervals(tracker, config, &rested)) {
       out.rests.push_back(measure_static_interval(recording, range, config));
       const StaticInterval& rest = out.rests.back();
       if (rest.outliers == 0) continue;
@@ -272,11 +273,19 @@ TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, 
     }
   }
   if (out.rests.empty()) {
+    std::string why = fmt::format("the longest recording has {:.3g} s", longest_s);
+    if (rested.moved_m > 0.0 || rested.rotated_rad > 0.0) {
+      constexpr double kMilli = 1e3;
+      why = fmt::format(
+          "it stayed for {:.3g} s at most, then it was {:.2g} mm and {:.2g} mrad away, where {:.3g} mm and "
+          "{:.3g} mrad are a rest: a probe in a hand does not rest",
+          rested.length_s, kMilli * rested.moved_m, kMilli * rested.rotated_rad, kMilli * config.rest_position_m,
+          kMilli * config.rest_rotation_rad);
+    }
     throw Error(
-        fmt::format("calibrate tracker: the marker never rested for {:.3g} s with {} poses (the longest recording has "
-                    "{:.3g} s): clamp the probe in front of the camera and record half a minute, then at other "
-                    "distances and tilts",
-                    config.least_rest_s, config.least_poses, longest_s));
+        fmt::format("calibrate tracker: the marker never rested for {:.3g} s with {} poses ({}): clamp the probe in "
+                    "front of the camera and record half a minute, then at other distances and tilts",
+                    config.least_rest_s, config.least_poses, why));
   }
   pool_intervals(out.rests, &StaticInterval::position_m, out.sigma_position_m, out.sigma_position_error_m,
                  out.slow_position_m);

@@ -97,7 +97,8 @@ Eigen::Quaterniond mean_rotation(const TrackerStream& tracker, PoseRange range) 
   return Eigen::Quaterniond(sum).normalized();
 }
 
-std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const TrackerNoiseConfig& config) {
+std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const TrackerNoiseConfig& config,
+                                             LongestRest* longest) {
   const std::vector<Block> blocks = make_blocks(tracker, config);
   std::vector<PoseRange> rests;
   std::size_t first = 0;
@@ -107,6 +108,7 @@ std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const
     Eigen::Vector3d centre = blocks[first].position_m;
     RunningMedian position_noise, rotation_noise;
     std::size_t last = first;
+    double moved_m = 0.0, rotated_rad = 0.0;
     while (last < blocks.size()) {
       const Block& block = blocks[last];
       if (last > first && gap_between(tracker, blocks[last - 1], block, config)) break;
@@ -115,11 +117,20 @@ std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const
       rotation_noise.add(block.rotation_noise_rad);
       const double position_m = config.rest_position_m + kByChance * position_noise.value() / count;
       const double rotation_rad = config.rest_rotation_rad + kByChance * rotation_noise.value() / count;
-      if ((block.position_m - centre).norm() > position_m) break;
-      if (log_rotation(block.rotation * blocks[first].rotation.conjugate()).norm() > rotation_rad) break;
+      const double away_m = (block.position_m - centre).norm();
+      const double away_rad = log_rotation(block.rotation * blocks[first].rotation.conjugate()).norm();
+      if (away_m > position_m || away_rad > rotation_rad) {
+        moved_m = away_m;
+        rotated_rad = away_rad;
+        break;
+      }
       ++last;
       centre += (block.position_m - centre) / static_cast<double>(last - first);
     }
+    const double held_s =
+        static_cast<double>(tracker.t_ns[blocks[last - 1].rows.last - 1] - tracker.t_ns[blocks[first].rows.first]) *
+        kNanosecond_s;
+    if (longest != nullptr && held_s > longest->length_s) *longest = {held_s, moved_m, rotated_rad};
     if (last >= first + 3) {
       const PoseRange rest{blocks[first + 1].rows.first, blocks[last - 2].rows.last};
       const double length_s =

@@ -172,6 +172,16 @@ TEST(TrackerNoise, RefusesWhatNeverRests) {
     tracker.T_world_marker[i].translation_m.x() += 2e-4 * static_cast<double>(i);
   const StaticTracker recording{"moving", &tracker, {}, true};
   EXPECT_THROW(calibrate_tracker_noise({&recording, 1}), Error);
+  // At rest for 60 of 45 poses a second and 3 s, then on its way over 50 mm: how long, and what ended it, is said.
+  const TrackerStream brief = simulate(random, {{{0.0, 0.0, 0.28}, 0.0, 3.0}, {{0.05, 0.0, 0.28}, 0.0, 3.0}});
+  const StaticTracker two{"brief", &brief, {}, true};
+  try {
+    calibrate_tracker_noise({&two, 1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::ContainsRegex("it stayed for 4\\.[0-9]+ s at most, then it was [0-9.]+ mm and "
+                                                     "[0-9.]+ mrad away, where 2 mm and 20 mrad are a rest"));
+  }
   const TrackerStream empty;
   const StaticTracker nothing{"empty", &empty, {}, true};
   EXPECT_THROW(calibrate_tracker_noise({&nothing, 1}), Error);

@@ -80,13 +80,16 @@ std::string import_checks_text(const ImportedMotion& motion) {
   constexpr double kDegrees = 57.29577951308232;
   if (!motion.up.empty()) {
     out += fmt::format("world       {} points up ({}; the mean specific force is {:.1f}° from it)\n", motion.up,
-                       motion.up_is_estimated ? "by the specific force" : "stated", motion.up_angle_rad * kDegrees);
+                       motion.up_is_assumed     ? "not stated, assumed"
+                       : motion.up_is_estimated ? "by the specific force"
+                                                : "stated",
+                       motion.up_angle_rad * kDegrees);
   }
   const StreamChecks& checks = motion.checks;
   if (checks.rest_mps2 > 0.0) out += fmt::format("gravity     {:.3f} m/s²\n", checks.rest_mps2);
   if (checks.rate_ratio > 0.0) {
-    out += fmt::format("rotation    gyroscope {:.3f} times the poses', cosine {:.3f}\n", checks.rate_ratio,
-                       checks.rate_cosine);
+    out += fmt::format("rotation    gyroscope {:.3f} times the poses', cosine {:.3f} (means over {:.0f} ms)\n",
+                       checks.rate_ratio, checks.rate_cosine, 1e3 * checks.rate_stretch_s);
   }
   if (checks.scale > 0.0) out += fmt::format("lengths     poses {:.3f} times the accelerometer's\n", checks.scale);
   if (motion.clocks && motion.clocks->is_determined) {
@@ -98,6 +101,20 @@ std::string import_checks_text(const ImportedMotion& motion) {
     out += fmt::format(", by the {}, correlation {:.3f}\n", clocks.by, clocks.correlation);
   }
   for (const std::string& note : checks.notes) out += "note        " + note + "\n";
+  return out;
+}
+
+std::string tracker_sigma_text(const TrackerSigma& sigma) {
+  const auto axes = [](const Eigen::Vector3d& value) {
+    const Eigen::Vector3d milli = 1e3 * value;
+    return milli.x() == milli.y() && milli.y() == milli.z()
+               ? fmt::format("{:.2g}", milli.x())
+               : fmt::format("{:.2g}, {:.2g}, {:.2g}", milli.x(), milli.y(), milli.z());
+  };
+  const bool same = sigma.position_from == sigma.rotation_from;
+  std::string out =
+      fmt::format("noise       a pose's position {} mm{}, rotation {} mrad ({})\n", axes(sigma.position_m),
+                  same ? "" : " (" + sigma.position_from + ")", axes(sigma.rotation_rad), sigma.rotation_from);
   return out;
 }
 
@@ -131,6 +148,9 @@ Json import_json(const ImportTables& tables, const ImportedMotion& motion) {
   out["rate_ratio"] = motion.checks.rate_ratio;
   out["rate_cosine"] = motion.checks.rate_cosine;
   out["scale"] = motion.checks.scale;
+  out["rate_stretch_s"] = motion.checks.rate_stretch_s;
+  out["pose_noise_m"] = {motion.noise.position_m.x(), motion.noise.position_m.y(), motion.noise.position_m.z()};
+  out["pose_noise_rad"] = {motion.noise.rotation_rad.x(), motion.noise.rotation_rad.y(), motion.noise.rotation_rad.z()};
   out["doubts"] = Json::array();
   for (const ImportDoubt& doubt : motion.checks.doubts) out["doubts"].push_back(doubt_text(doubt, tables));
   if (motion.clocks) {

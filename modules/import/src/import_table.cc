@@ -27,11 +27,25 @@ bool may_have(FileRole role, ColumnGroup group) {
   return role == FileRole::kForce;
 }
 
+// Where a column is to be stated that is not of this file's kind.
+std::string misplaced(const std::string& file, FileRole role, const StatedColumn& entry) {
+  const ColumnGroup group = group_of(entry.meaning);
+  const char* option = group == ColumnGroup::kForce          ? "force"
+                       : group == ColumnGroup::kAcceleration ? "imu"
+                       : group == ColumnGroup::kRate         ? (role == FileRole::kGyro ? "gyro" : "imu")
+                                                             : "pose";
+  const std::string unit = entry.unit.empty() ? "" : "[" + entry.unit + "]";
+  return fmt::format(
+      "{}: {} is not a column of the {}: state it as --{} {} --{}-columns \"{}={}{}\", which may be the "
+      "same file",
+      file, entry.meaning, role_name(role), option, file, option, entry.meaning, entry.column, unit);
+}
+
 void add_stated(const DelimitedTable& table, FileRole role, const std::vector<StatedColumn>& stated,
                 const std::vector<ColumnGroup>& elsewhere, bool own, ColumnMap& map) {
   for (const StatedColumn& entry : stated) {
     if (!may_have(role, group_of(entry.meaning))) {
-      if (own) throw Error(fmt::format("{}: {} is not in a file of {}", table.file, entry.meaning, role_name(role)));
+      if (own) throw Error(misplaced(table.file, role, entry));
       continue;
     }
     if (find_meaning(map, entry.meaning) != nullptr) continue;

@@ -128,12 +128,9 @@ Json import_origin(const ImportedMotion& motion, const ImportTables& tables, Map
   out["start_ns"] = motion.start_ns;
   if (motion.clocks) {
     const ClockFit& clocks = *motion.clocks;
-    out["clocks"] = {{"by", clocks.by},
-                     {"offset_s", clocks.offset_s},
-                     {"offset_sigma_s", clocks.offset_sigma_s},
-                     {"drift", clocks.drift},
-                     {"drift_sigma", clocks.drift_sigma},
-                     {"correlation", clocks.correlation}};
+    out["clocks"] = {
+        {"by", clocks.by},       {"offset_s", clocks.offset_s},       {"offset_sigma_s", clocks.offset_sigma_s},
+        {"drift", clocks.drift}, {"drift_sigma", clocks.drift_sigma}, {"correlation", clocks.correlation}};
   }
   return out;
 }
@@ -157,12 +154,35 @@ ImportInput input_of(const ImportedMotion& motion, const ImportStreams& streams)
 
 }  // namespace
 
+TrackerSigma tracker_sigma(const PoseNoise& noise, const ImportConfig& config) {
+  const auto choose = [](double stated, const Eigen::Vector3d& estimated, double least,
+                         Eigen::Vector3d& sigma) -> std::string {
+    if (stated > 0.0) {
+      sigma.setConstant(stated);
+      return "stated";
+    }
+    sigma = estimated.cwiseMax(least);
+    return estimated.minCoeff() >= least  ? "estimated"
+           : estimated.maxCoeff() < least ? "assumed"
+                                          : "estimated, assumed";
+  };
+  TrackerSigma out;
+  out.position_from = choose(config.tracker_sigma_m, noise.position_m, kAssumedPoseNoise_m, out.position_m);
+  out.rotation_from = choose(config.tracker_sigma_rad, noise.rotation_rad, kAssumedPoseNoise_rad, out.rotation_rad);
+  return out;
+}
+
 Recording make_imported_recording(const ImportedMotion& motion, const ImportTables& tables,
                                   const MappingConfig& mapping, const ImportConfig& config) {
   ImportStreams streams = motion.streams;
   const VectorStream force = force_stream(streams);
   use_faster_rows(force, streams);
-  Recording out = import_imu_pose(input_of(motion, streams), config);
+  const TrackerSigma sigma = tracker_sigma(motion.noise, config);
+  ImportInput input = input_of(motion, streams);
+  input.sigma_position_m = sigma.position_m;
+  input.sigma_rotation_rad = sigma.rotation_rad;
+  Recording out = import_imu_pose(input, config);
+  out.calibration.extra["tracker_sigma_from"] = {{"position", sigma.position_from}, {"rotation", sigma.rotation_from}};
   if (streams.rate.size() == 0) {
     out.probe.gyro_counts.clear();
     out.calibration.gyroscope.reset();
@@ -198,7 +218,7 @@ MappingConfig stated_mapping(const ImportTables& tables, const MappingConfig& co
     if (file.section.empty()) file.section = preset_section(table->table.text, table->role);
   }
   if (out.euler.empty()) out.euler = tables.pose->preset.euler;
-  if (!motion.up.starts_with('(')) out.up = motion.up;
+  if (!motion.up_is_assumed && !motion.up.starts_with('(')) out.up = motion.up;
   return out;
 }
 

@@ -163,8 +163,10 @@ void start_near_zero(ImportedMotion& motion) {
   if (motion.clocks) motion.clocks->middle_ns -= motion.start_ns;
 }
 
+// Where a check has failed, a stated axis is used as it is, and what is estimated is an assumption.
 void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMotion& motion) {
   motion.up = up_of(tables, config);
+  const bool doubtful = !motion.checks.doubts.empty();
   const auto estimate = estimate_up(motion.streams);
   constexpr double kNearAxis_rad = 0.35;  // 20°
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
@@ -172,7 +174,7 @@ void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMo
     up = axis_vector(motion.up, "the world's axis that points up");
     if (!estimate) return turn_world(motion.streams.pose, up), turn_world(motion.object, up);
     motion.up_angle_rad = std::acos(std::clamp(estimate->direction.dot(up), -1.0, 1.0));
-    if (motion.up_angle_rad > kNearAxis_rad) {
+    if (motion.up_angle_rad > kNearAxis_rad && !doubtful) {
       motion.checks.doubts.push_back(
           {ColumnGroup::kRotation,
            FileRole::kPose,
@@ -186,6 +188,7 @@ void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMo
     }
   } else {
     motion.up_is_estimated = true;
+    motion.up_is_assumed = doubtful || !estimate;
     motion.up = estimate ? estimate->name : "z";
     up = axis_vector(motion.up, "up");
     motion.up_angle_rad = estimate ? estimate->angle_rad : 0.0;
@@ -276,13 +279,17 @@ ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig&
   times.pose.t_ns = out.streams.pose.t_ns;
   times.specific_force.t_ns = out.streams.specific_force.t_ns;
   out.checks = check_times_only(times, units_of_tables(tables, config));
-  if (!out.checks.doubts.empty()) return out;
+  if (!out.checks.doubts.empty()) {
+    find_up(tables, config, out);
+    return out;
+  }
   put_on_one_clock(tables, config, out);
   start_near_zero(out);
   out.checks = check_streams(out.streams, units_of_tables(tables, config));
   check_euler_order(tables, config, out);
   compare_with_stated(config, out.checks.doubts);
-  if (out.checks.doubts.empty()) find_up(tables, config, out);
+  find_up(tables, config, out);
+  out.noise = estimate_pose_noise(out.streams.pose);
   return out;
 }
 

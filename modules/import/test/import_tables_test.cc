@@ -236,6 +236,63 @@ TEST_F(MappedFiles, ReadTheSameByTheMappingThatWasSaved) {
   EXPECT_THAT(import_table_text(tables), HasSubstr("#2 AccX"));
 }
 
+// y points up in these files, and a world read as its negative is upside down.
+TEST_F(MappedFiles, AStatedUpIsUsedWhereACheckFails) {
+  config_.invert_rotation = true;  // wrong
+  for (const char* up : {"y", "-x", ""}) {
+    config_.up = up;
+    ImportTables tables = read_import_tables(files_, config_);
+    const ImportedMotion motion = read_imported_motion(tables, config_);
+    ASSERT_FALSE(motion.checks.doubts.empty());
+    EXPECT_EQ(motion.up_is_assumed, config_.up.empty());
+    if (config_.up.empty()) {
+      EXPECT_THAT(import_checks_text(motion), HasSubstr("points up (not stated, assumed"));
+      EXPECT_EQ(stated_mapping(tables, config_, motion).up, "");
+      continue;
+    }
+    EXPECT_EQ(motion.up, up);
+    EXPECT_THAT(import_checks_text(motion), HasSubstr(std::string(up) + " points up (stated"));
+    const Recording recording = make_imported_recording(motion, tables, config_, {});
+    // Heights are the file's coordinates along the stated axis: the known motion's, in whose files y is up.
+    const Eigen::Vector3d p = testing_import::position_at(3.11);
+    EXPECT_NEAR(recording.tracker.T_world_marker[311].translation_m.z(), config_.up == "y" ? p.z() : -p.x(), 1e-12);
+  }
+}
+
+TEST_F(MappedFiles, TheTrackersNoiseIsTheirOwnOrTheStatedOne) {
+  ImportTables tables = read_import_tables(files_, config_);
+  ImportedMotion motion = read_imported_motion(tables, config_);
+  const auto from = [&](const ImportConfig& import) {
+    const Recording out = make_imported_recording(motion, tables, config_, import);
+    const Json* origin = out.calibration.extra.find("tracker_sigma_from");
+    return origin == nullptr ? std::string()
+                             : origin->find("position")->text() + " " + origin->find("rotation")->text();
+  };
+  motion.noise = {Eigen::Vector3d::Constant(1e-9), Eigen::Vector3d::Constant(1e-9)};  // a computed motion's
+  EXPECT_EQ(from({}), "assumed assumed");
+  motion.noise = {{1e-4, 1e-9, 1e-4}, Eigen::Vector3d::Constant(2e-3)};
+  EXPECT_EQ(from({}), "estimated, assumed estimated");
+  motion.noise = {{1e-4, 2e-4, 3e-4}, {1e-3, 2e-3, 3e-3}};
+  EXPECT_EQ(from({}), "estimated estimated");
+  ImportConfig stated;
+  stated.tracker_sigma_rad = 4e-3;
+  EXPECT_EQ(from(stated), "estimated stated");
+  const Recording out = make_imported_recording(motion, tables, config_, stated);
+  EXPECT_EQ(out.calibration.tracker.sigma_position_m, Eigen::Vector3d(1e-4, 2e-4, 3e-4));
+  EXPECT_EQ(out.calibration.tracker.sigma_rotation_rad, Eigen::Vector3d::Constant(4e-3));
+}
+
+TEST_F(MappedFiles, AForceAmongTheSensorsColumnsIsSentToItsOption) {
+  config_.imu.columns = "f=AccX[N]";
+  try {
+    read_import_tables(files_, config_);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("f is not a column of the inertial sensor: state it as --force"));
+    EXPECT_THAT(error.what(), HasSubstr("--force-columns \"f=AccX[N]\""));
+  }
+}
+
 TEST_F(MappedFiles, RefuseAUnitThatIsWrong) {
   config_.pose.columns = "t=ms[ms], px=X[m], py=Y[m], pz=Z[m]";
   ImportTables tables = read_import_tables(files_, config_);

@@ -1,8 +1,9 @@
 #include "pose_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "asperity/signal/white_noise.h"
 
 namespace asperity {
 
@@ -16,38 +17,7 @@ double median_of_poses(std::vector<double> values) {
 
 }  // namespace
 
-Eigen::Vector3d white_noise_m(const PosePath& path) {
-  constexpr std::size_t kWindow = 32;
-  constexpr double kGain2 = 70.0;  // 1² + 4² + 6² + 4² + 1²
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < path.t_s.size(); ++i) steps_s.push_back(path.t_s[i] - path.t_s[i - 1]);
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  const double longest_s = 1.5 * *middle;
-  std::array<std::vector<double>, 3> levels;
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  std::size_t count = 0;
-  for (std::size_t i = 2; i + 2 < path.t_s.size(); ++i) {
-    if (path.t_s[i + 2] - path.t_s[i - 2] > 4.0 * longest_s) continue;
-    const auto& p = path.p_world_tip_m;
-    const Eigen::Vector3d fourth_m = p[i - 2] - 4.0 * p[i - 1] + 6.0 * p[i] - 4.0 * p[i + 1] + p[i + 2];
-    sum += fourth_m.array().square() / kGain2;
-    if (++count < kWindow) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      levels[axis].push_back(std::sqrt(sum[static_cast<Eigen::Index>(axis)] / static_cast<double>(count)));
-    }
-    sum.setZero();
-    count = 0;
-  }
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (levels[axis].empty()) continue;
-    const auto usual = levels[axis].begin() + static_cast<std::ptrdiff_t>(levels[axis].size() / 2);
-    std::nth_element(levels[axis].begin(), usual, levels[axis].end());
-    out[static_cast<Eigen::Index>(axis)] = *usual;
-  }
-  return out;
-}
+Eigen::Vector3d white_noise_m(const PosePath& path) { return white_noise(path.t_s, path.p_world_tip_m); }
 
 std::vector<char> find_outlying_poses(const PosePath& path, const Eigen::Vector3d& sigma_m) {
   constexpr double kReach_s = 0.15;

@@ -12,8 +12,7 @@ struct PosePath {
   std::vector<Eigen::Vector3d> p_world_tip_m;
 };
 
-// The poses' white noise an axis by the fourth differences of evenly spaced poses, which a smooth motion hardly enters:
-// the median over windows of 32 poses; zero if there are too few.
+// The poses' white noise an axis (signal/white_noise.h); zero if there are too few.
 Eigen::Vector3d white_noise_m(const PosePath& path);
 
 // 1 for each pose that is far from the median of its neighbours in 0.15 s, in an axis. A steady motion, which spreads

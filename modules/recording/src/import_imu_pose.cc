@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kAdcSteps = 32768.0;
 
-// What a motion-capture system is good for where no noise is added.
-constexpr double kFloor_m = 5e-5;
-constexpr double kFloor_rad = 1e-3;
-
 // Separate streams, so that noise on the one does not change the other's.
 constexpr std::uint64_t kPositionStream = 1;
 constexpr std::uint64_t kRotationStream = 2;
@@ -101,6 +97,10 @@ Truth full_truth(const ImportInput& input) {
   return out;
 }
 
+double first_above_zero(double stated, double estimated, double assumed) {
+  return stated > 0.0 ? stated : estimated > 0.0 ? estimated : assumed;
+}
+
 Calibration known_calibration(const ImportInput& input, const ImportConfig& config) {
   Calibration out;
   out.accelerometer.B = kAdcSteps / input.accelerometer_range_mps2 * Eigen::Matrix3d::Identity();
@@ -111,8 +111,12 @@ Calibration known_calibration(const ImportInput& input, const ImportConfig& conf
   out.force.axis_in_marker = Eigen::Vector3d::UnitZ();
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
-    out.tracker.sigma_position_m[i] = std::hypot(config.pose_noise_m[axis], kFloor_m);
-    out.tracker.sigma_rotation_rad[i] = std::hypot(config.rotation_noise_rad[axis], kFloor_rad);
+    out.tracker.sigma_position_m[i] =
+        std::hypot(config.pose_noise_m[axis],
+                   first_above_zero(config.tracker_sigma_m, input.sigma_position_m[i], kAssumedPoseNoise_m));
+    out.tracker.sigma_rotation_rad[i] =
+        std::hypot(config.rotation_noise_rad[axis],
+                   first_above_zero(config.tracker_sigma_rad, input.sigma_rotation_rad[i], kAssumedPoseNoise_rad));
   }
   out.probe_latency_sigma_s = config.latency_sigma_s;  // the poses are the truth: their clock counts
   return out;

@@ -125,7 +125,7 @@ Json import_plan(const ImportChoice& choice) {
     const ImportedMotion motion = read_imported_motion(tables, choice.mapping);
     out["files"] = Json::array();  // a check may have exchanged a unit
     for (const ImportTable* table : tables.all()) out["files"].push_back(table_json(*table));
-    out["checks"] = import_checks_text(motion);
+    out["checks"] = import_checks_text(motion) + tracker_sigma_text(tracker_sigma(motion.noise, {}));
     for (const ImportDoubt& doubt : motion.checks.doubts) out["doubts"].push_back(doubt_text(doubt, tables));
   } catch (const Error& error) {
     out["fault"] = error.what();

@@ -13,6 +13,8 @@ std::string import_table_text(const ImportTables& tables);
 std::string import_summary_text(const ImportTables& tables);
 // What the checks found: world's up axis, gravity, rotation, scale, clocks; a line each.
 std::string import_checks_text(const ImportedMotion& motion);
+// The tracker's noise and where it is from: a line.
+std::string tracker_sigma_text(const TrackerSigma& sigma);
 
 Json import_json(const ImportTables& tables, const ImportedMotion& motion);
 

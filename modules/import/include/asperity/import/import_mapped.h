@@ -8,6 +8,7 @@
 #include "asperity/import/align_clocks.h"
 #include "asperity/import/check_streams.h"
 #include "asperity/import/import_table.h"
+#include "asperity/import/pose_noise.h"
 #include "asperity/recording/import_imu_pose.h"
 
 namespace asperity {
@@ -39,14 +40,25 @@ struct ImportedMotion {
   std::optional<ClockFit> clocks;  // nullopt: the files' times are of one clock
   std::string up;                  // the axis of the files' world that points up
   bool up_is_estimated = false;
-  double up_angle_rad = 0.0;  // of the mean specific force to it
-  std::int64_t start_ns = 0;  // subtracted from the times of files that count from 1970
+  bool up_is_assumed = false;  // estimated from streams that a check has failed for, or from nothing
+  double up_angle_rad = 0.0;   // of the mean specific force to it
+  std::int64_t start_ns = 0;   // subtracted from the times of files that count from 1970
+  PoseNoise noise;             // of the poses, in the recording's axes
 };
 
 // Reads the streams, brings them on one clock and into one frame, and checks them. A unit that was guessed from values
 // and that the checks contradict is exchanged in `tables`. Doubts that remain are in `checks`. Throws Error as
 // read_import_tables, and where times of several files do not overlap and no offset can be found.
 ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config);
+
+// The noise of the poses that a recording is made with, standard deviation an axis, and where it is from: "stated",
+// "estimated", or "assumed", 0.05 mm and 1 mrad, where the estimate is lower: a tracker that smooths its poses has
+// errors that are not white. "estimated, assumed": the axes differ.
+struct TrackerSigma {
+  Eigen::Vector3d position_m, rotation_rad;
+  std::string position_from, rotation_from;
+};
+TrackerSigma tracker_sigma(const PoseNoise& noise, const ImportConfig& config);
 
 // A doubt as an error says it: file, columns, their unit, what they look like and what to state.
 std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables);
@@ -59,6 +71,7 @@ std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables);
 // - the tip is at MappingConfig::tip_m; without a gyroscope there is no gyroscope's calibration; three axes of force
 // become
 //   `force3` with an identity's calibration, one is the force axis;
+// - the tracker's noise is what tracker_sigma() has, and calibration.extra.tracker_sigma_from says where from;
 // - truth is kept only where poses were thinned or given noise;
 // - extra.import_origin has the files, their CRC-32 and the mapping.
 // Throws Error if there are no inertial samples or poses.

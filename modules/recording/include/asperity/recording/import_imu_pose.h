@@ -27,13 +27,23 @@ struct ImportInput {
   // What the 16-bit counts span.
   double accelerometer_range_mps2 = 16.0 * kStandardGravity_mps2;
   double gyroscope_range_radps = 2000.0 * std::numbers::pi / 180.0;
+  // White noise of the poses as they come, along and about the world's axes; zero: as assumed. What ImportConfig states
+  // goes before.
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_rotation_rad = Eigen::Vector3d::Zero();
   Problems problems;  // what was left out when reading
 };
+
+// What a motion-capture system is good for where its noise is not stated and not estimated as larger.
+inline constexpr double kAssumedPoseNoise_m = 5e-5;
+inline constexpr double kAssumedPoseNoise_rad = 1e-3;
 
 struct ImportConfig {
   double pose_rate_Hz = 0.0;
   std::array<double, 3> pose_noise_m{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_noise_rad{0.0, 0.0, 0.0};
+  double tracker_sigma_m = 0.0;
+  double tracker_sigma_rad = 0.0;
   std::int64_t seed = 1;
   double gravity_mps2 = 9.81;
   double accelerometer_position_sigma_m = 0.05;
@@ -46,6 +56,9 @@ struct ImportConfig {
     v.field("pose_noise_m", pose_noise_m, "noise added along the world's axes, standard deviation, m", {0.0, 1.0});
     v.field("rotation_noise_rad", rotation_noise_rad, "noise added about the world's axes, standard deviation, rad",
             {0.0, 1.0});
+    v.field("tracker_sigma_m", tracker_sigma_m, "noise that the poses have already, each axis, m; 0: estimated",
+            {0.0, 1.0});
+    v.field("tracker_sigma_rad", tracker_sigma_rad, "the same of their rotation, rad; 0: estimated", {0.0, 1.0});
     v.field("seed", seed, "of the noise");
     v.field("gravity_mps2", gravity_mps2, "where it was recorded, m/s^2", {0.0, 30.0});
     v.field("accelerometer_position_sigma_m", accelerometer_position_sigma_m,
