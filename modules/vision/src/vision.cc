@@ -12,7 +12,7 @@ namespace {
 
 const Vision& load_vision() {
   const Vision* (*entry)() = nullptr;
-  load_library("vision: OpenCV's part of this program", own_library_paths("libasperity_vision.so"),
+  load_library("vision: OpenCV's part of this program (Debian package asperity-vision)", own_library_paths("libasperity_vision.so"),
                {library_symbol("asperity_vision", entry)});
   const Vision* const table = entry();
   if (table->program != std::string_view(kVersion) || table->compiler != std::string_view(__VERSION__)) {
