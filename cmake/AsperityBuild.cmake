@@ -156,18 +156,22 @@ function(add_module name)
   endif()
 endfunction()
 
-# add_own_library(name USED_BY target SOURCES … LIBRARIES target…)
+# add_own_library(name USED_BY target [COMPONENT package] SOURCES … LIBRARIES target…)
 #   libasperity_<name>.so, which own_library_paths() (base/load_library.h) finds beside the programs of the build and in
-#   lib/asperity of what is installed. It is built before whatever is linked with USED_BY, which loads it.
+#   lib/asperity of what is installed. It is built before whatever is linked with USED_BY, which loads it. It belongs to
+#   the package of the program, or to that of another COMPONENT (AsperityPackage.cmake).
 function(add_own_library name)
-  cmake_parse_arguments(L "" "USED_BY" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(L "" "USED_BY;COMPONENT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT L_COMPONENT)
+    set(L_COMPONENT program)
+  endif()
   set(target asperity_${name}_library)
   add_library(${target} MODULE ${L_SOURCES})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME asperity_${name}
                         LIBRARY_OUTPUT_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   target_link_libraries(${target} PRIVATE ${L_LIBRARIES} asperity_flags)
   add_dependencies(${L_USED_BY} ${target})
-  install(TARGETS ${target} LIBRARY DESTINATION lib/asperity COMPONENT program)
+  install(TARGETS ${target} LIBRARY DESTINATION lib/asperity COMPONENT ${L_COMPONENT})
 endfunction()
 
 # add_own_program(name USED_BY target SOURCES … LIBRARIES target…)

@@ -2,7 +2,7 @@
 
 namespace asperity {
 
-inline constexpr const char* kVersion = "0.1.0";
-inline constexpr const char* kVersionDate = "2026-11-22";  // as the manual page states it
+inline constexpr const char* kVersion = "0.2.0";
+inline constexpr const char* kVersionDate = "2026-11-28";  // as the manual page states it
 
 }  // namespace asperity
