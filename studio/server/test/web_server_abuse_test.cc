@@ -202,7 +202,7 @@ TEST_F(WebServerAbuse, DropsFramesForABrowserThatDoesNotRead) {
   const std::string filling(1U << 20U, '.');
   for (int i = 0; i < kFrames; ++i) {
     server_->publish("t", std::to_string(i) + filling, Delivery::kSeries);
-    ASSERT_THAT(good.next_frame()->payload, testing::StartsWith(std::to_string(i)));
+    ASSERT_THAT(good.next_frame().value().payload, testing::StartsWith(std::to_string(i)));
   }
   const std::uint64_t dropped = server_->dropped_frames();
   EXPECT_GE(dropped, 30U);
@@ -210,7 +210,7 @@ TEST_F(WebServerAbuse, DropsFramesForABrowserThatDoesNotRead) {
   // and what the system keeps for a socket (at most 6 MB).
   std::vector<int> numbers;
   do {
-    numbers.push_back(std::stoi(deaf.next_frame()->payload));
+    numbers.push_back(std::stoi(deaf.next_frame().value().payload));
   } while (numbers.back() != kFrames - 1);
   EXPECT_TRUE(std::is_sorted(numbers.begin(), numbers.end()));
   EXPECT_EQ(numbers.size() + dropped, static_cast<std::size_t>(kFrames));
