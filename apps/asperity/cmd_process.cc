@@ -92,7 +92,7 @@ std::string result_summary(const ProcessResult& result) {
   const auto shape = kPathShapeNames.at(static_cast<std::size_t>(result.base.shape));
   const double length_stderr_mm = 1e3 * result.noise.length_stderr_m;
   std::string out = fmt::format("  scan path   {} mm on a {}, {:.0f} % with heights, {:.1f} mm/s\n",
-                                with_error(1e3 * result.coverage.length_m, length_stderr_mm, 2), shape,
+                                with_error(1e3 * result.base.length_m, length_stderr_mm, 2), shape,
                                 100.0 * result.coverage.covered, result.speed.mean_mps * 1e3);
   if (std::isfinite(result.noise.snr)) {
     out += fmt::format("  noise       {:.2g} ± {:.1g} µm RMS in the texture, signal to noise {:.3g} (power)\n",

@@ -81,7 +81,7 @@ const std::vector<FigureKind>& figure_kinds() {
   static const std::vector<FigureKind> kKinds{
       {"length_m",
        [](const ProcessResult& r) {
-         return Said{r.coverage.length_m, r.noise.length_stderr_m, kMissing, kMissing};
+         return Said{r.base.length_m, r.noise.length_stderr_m, kMissing, kMissing};
        },
        nullptr, [](const ScanCase&, const TrueProfile& t) { return t.length_m; }},
       {"pitch_m",

@@ -149,6 +149,27 @@ std::vector<double> times_at(const asperity::ProcessResult& result, std::int64_t
   return out;
 }
 
+// How far apart the places are where the tip truly was, from the first touch of the measured path to its last. Not
+// between the times at which the measured path first passed its ends: noise passes the place of a rest before the tip
+// is there.
+double true_length_m(const asperity::ProcessResult& result, std::int64_t origin_ns, const asperity::Truth& truth,
+                     const std::vector<double>& t_s) {
+  const asperity::TipMotion& motion = result.trajectory.motion;
+  const std::vector<char>& contact = result.base.contact;
+  std::size_t first = 0, last = motion.size();
+  while (first < last && !contact.empty() && contact[first] == 0) ++first;
+  while (last > first && !contact.empty() && contact[last - 1] == 0) --last;
+  if (first == last) return kNan;
+  const auto seconds = [&](std::size_t i) { return 1e-9 * static_cast<double>(motion.t_ns[i] - origin_ns); };
+  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (t_s[i] < seconds(first) || t_s[i] > seconds(last - 1)) continue;
+    low_m = std::min(low_m, truth.s_m[i]);
+    high_m = std::max(high_m, truth.s_m[i]);
+  }
+  return high_m > low_m ? high_m - low_m : kNan;
+}
+
 }  // namespace
 
 std::vector<double> high_pass(std::span<const double> height_m, double spacing_m, double cutoff_cycles_per_mm,
@@ -197,7 +218,7 @@ TrueProfile find_true_profile(const asperity::Recording& recording, const asperi
   const std::vector<double> passed_s = times_at(result, origin_ns, profile.s_m);
   std::vector<double> at_m(profile.size());
   std::transform(passed_s.begin(), passed_s.end(), at_m.begin(), [&](double t) { return true_s.at(t); });
-  out.length_m = at_m.back() - at_m.front();
+  out.length_m = true_length_m(result, origin_ns, truth, t_s);
 
   const Spline heights = true_heights(truth, t_s);
   const double cutoff = result.config.profile.cutoff_cycles_per_mm, bridge_m = result.config.profile.bridge_m;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "asperity/base/error.h"
@@ -263,7 +264,7 @@ TEST(Haply, LateStatesAreNoNewsAndInTheEndAFault) {
 
 // How far a reading is from where the hand is, m. Each state would be older than the one before if the three too many
 // were taken for answers; and where each of them had a message sent, messages would pile up at a service that is late,
-// until it answers them all at once, which is a fault.
+// until it answers them all at once, which is a fault: infinite then.
 double error_with_states_unasked_for_m() {
   FakeInverseService service;
   const auto device = open_haply(config_for(service));
@@ -278,8 +279,7 @@ double error_with_states_unasked_for_m() {
   };
   serve(*device, 500, look);
   EXPECT_TRUE(serve_until(*device, look, [&] { return last > first + 50 || !device->fault().empty(); }));
-  EXPECT_EQ(device->fault(), "");
-  return worst_m;
+  return device->fault().empty() ? worst_m : std::numeric_limits<double>::infinity();
 }
 
 TEST(Haply, StatesThatNobodyAskedForAreDropped) {

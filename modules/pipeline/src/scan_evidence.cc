@@ -259,6 +259,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.noise_rms_m = result.noise.noise_rms_m;
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
+  out.pattern_found = result.periodicity.periodic && std::isfinite(result.periodicity.pitch_stderr_m);
   out.stretch_correlation = result.noise.stretch_correlation;
   out.end_place_sigma_m = result.noise.end_place_sigma_m;
   out.at_most_m = result.noise.at_most_m;

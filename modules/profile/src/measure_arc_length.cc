@@ -21,10 +21,12 @@ constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the directio
 constexpr double kLowestCutoff_hz = 0.2;
 constexpr double kLengthened = 2e-4;       // of the length: what noise in the direction may add
 constexpr double kLastingMotion_s = 0.25;  // shorter is noise that looks like motion
-constexpr double kClearMotion = 4.0;       // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;          // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;       // standard deviations: further no noise carries the tip
-constexpr double kUsualBend_m = 0.7e-3;    // where nothing is known of the noise
+constexpr double kRestLevel_s = 0.5;  // for the place of a rest's outer end: several times the position's correlation
+constexpr double kClearMotion = 4.0;  // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;     // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;  // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;      // cosine: two directions within 60° are no reversal
+constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -76,10 +78,13 @@ Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std
   Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
-  // Where the speed changes the low-pass moves the path along itself: that is no bend, unless the path turns round.
-  const double cut_m = (slow.p_m[cell] - quick.p_m[cell]).norm();
-  const double share = std::clamp(cut_m / bend_m - 1.0, 0.0, 1.0);
-  const Eigen::Vector2d mixed = (1.0 - share) * gentle.normalized() + share * tight;
+  // Where the speed changes, as at a rest, the low-pass moves the path along itself: that is no bend, unless the path
+  // turns round.
+  const Eigen::Vector2d along = gentle.normalized();
+  Eigen::Vector2d cut_m = slow.p_m[cell] - quick.p_m[cell];
+  if (along.dot(tight) > kSameWay) cut_m -= along.dot(cut_m) * along;
+  const double share = std::clamp(cut_m.norm() / bend_m - 1.0, 0.0, 1.0);
+  const Eigen::Vector2d mixed = (1.0 - share) * along + share * tight;
   return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
 }
 
@@ -132,11 +137,12 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
   return at;
 }
 
-// The rest [begin, start) before a path: s has the rest's median, up to the last sample at which it still was there.
-// From there on it is as measured, so that s has no step where the tip begins to creep.
-void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t start, std::size_t stop) {
+// The rest [begin, start) before a path, of which [begin, level) is its first half second: s has the median of that, up
+// to the last sample at which it still was there. From there on it is as measured: a tip that creeps down a slope
+// during its rest is on its way.
+void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t level, std::size_t start, std::size_t stop) {
   if (start <= begin) return;
-  const double level_m = median(std::span<const double>(s_m.data() + begin, start - begin));
+  const double level_m = median(std::span<const double>(s_m.data() + begin, std::max(level, begin + 1) - begin));
   std::size_t leaves = start;
   while (leaves < stop && s_m[leaves] <= level_m) ++leaves;
   while (leaves > begin && s_m[leaves - 1] > level_m) --leaves;
@@ -144,10 +150,11 @@ void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t start,
             level_m);
 }
 
-// The same of the rest [stop, end) after it.
-void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t end) {
+// The same of the rest [stop, end) after it, of which [level, end) is its last half second.
+void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t level, std::size_t end) {
   if (end <= stop) return;
-  const double level_m = median(std::span<const double>(s_m.data() + stop, end - stop));
+  level = std::min(level, end - 1);
+  const double level_m = median(std::span<const double>(s_m.data() + level, end - level));
   std::size_t arrives = stop;
   while (arrives > start && s_m[arrives - 1] >= level_m) --arrives;
   while (arrives < end && s_m[arrives] < level_m) ++arrives;
@@ -207,8 +214,8 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     const Eigen::Vector2d& tangent = directions.tangent[index_at(path, 0.5 * (t_s[i - 1] + t_s[i]))];
     out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
   }
-  // In the rests before and after the path s has one value, not the range of its noise, and the path lies between them:
-  // the lowest of many noisy s would be too low, and the length too long.
+  // The path lies between where the rests before and after it begin and end, by medians: the lowest of many noisy s
+  // would be too low, and the length too long.
   const auto lasting = static_cast<std::size_t>(kLastingMotion_s * kPathRate_hz);
   const std::size_t starts = first_lasting(moving.begin(), moving.end(), lasting);
   const std::size_t stops = path.size() - first_lasting(moving.rbegin(), moving.rend(), lasting);
@@ -216,8 +223,11 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     std::size_t start = begin, stop = end;
     while (start < end && index_at(path, t_s[start]) < starts) ++start;
     while (stop > start && index_at(path, t_s[stop - 1]) >= stops) --stop;
-    hold_before(out.s_m, begin, start, stop);
-    hold_after(out.s_m, start, stop, end);
+    const auto at = [&](double time_s) {
+      return static_cast<std::size_t>(std::lower_bound(t_s.begin(), t_s.end(), time_s) - t_s.begin());
+    };
+    hold_before(out.s_m, begin, std::min(start, at(t_s[begin] + kRestLevel_s)), start, stop);
+    hold_after(out.s_m, start, stop, std::max(stop, at(t_s[end - 1] - kRestLevel_s)), end);
     const double first_m = out.s_m[begin];
     const double last_m = out.s_m[end - 1] - first_m;
     for (std::size_t i = begin; i < end; ++i) {

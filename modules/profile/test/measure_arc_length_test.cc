@@ -108,6 +108,61 @@ TEST(ArcLength, NoiseInARestOnTheWayIsNoTravel) {
   }
 }
 
+// Where the tip stops and starts, the low-pass moves the path along itself. That was taken for a bend, and the
+// direction there followed the noise: 0.4 mm more of 40 with rests on the way.
+TEST(ArcLength, RestsOnTheWayOfAStraightPathDoNotLengthenIt) {
+  constexpr double kSigma_m = 0.15e-3;
+  constexpr int kSeeds = 16;
+  double sum_m = 0.0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    std::vector<double> t_s;
+    std::vector<Eigen::Vector2d> u_m;
+    const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
+    SlowNoise x(kSigma_m, 3.0, kRate_hz, of(0)), y(kSigma_m, 3.0, kRate_hz, of(1));
+    double true_m = 0.0;
+    for (int i = 0; i <= 8000; ++i) {
+      // 0.6 s at 25 mm/s and 0.9 s of rest in turn.
+      const double phase_s = std::fmod(i / kRate_hz, 1.5);
+      if (phase_s > 0.9) true_m += 0.025 / kRate_hz;
+      t_s.push_back(i / kRate_hz);
+      u_m.emplace_back(true_m + x.next(), y.next());
+    }
+    ArcLengthConfig config;
+    config.noise_m = kSigma_m;
+    config.bend_m = 5.0 * kSigma_m;
+    sum_m += measure_arc_length(t_s, u_m, {}, config).s_m.back() - true_m;
+  }
+  // Errors of two ends of σ each: three standard errors of the mean.
+  EXPECT_LT(std::abs(sum_m) / kSeeds, 3.0 * std::numbers::sqrt2 * kSigma_m / std::sqrt(static_cast<double>(kSeeds)));
+}
+
+// In a hole the tip slides on while the hand rests. Its path begins where it first was and ends where it is at last.
+TEST(ArcLength, ATipThatCreepsDuringItsRestsIsOnItsWay) {
+  constexpr double kSigma_m = 0.02e-3, kCreep_m = 0.4e-3;
+  double sum_m = 0.0;
+  constexpr int kSeeds = 8;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    std::vector<double> t_s;
+    std::vector<Eigen::Vector2d> u_m;
+    const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
+    SlowNoise x(kSigma_m, 3.0, kRate_hz, of(0)), y(kSigma_m, 3.0, kRate_hz, of(1));
+    double true_m = 0.0;
+    for (int i = 0; i <= 6000; ++i) {
+      const double t = i / kRate_hz;
+      true_m = 0.02 * std::clamp(t - 2.0, 0.0, 2.0);
+      // 0.4 mm in half a second of each rest of 2 s.
+      true_m += kCreep_m * std::clamp((t - 0.7) / 0.5, 0.0, 1.0) + kCreep_m * std::clamp((t - 4.7) / 0.5, 0.0, 1.0);
+      t_s.push_back(t);
+      u_m.emplace_back(true_m + x.next(), y.next());
+    }
+    ArcLengthConfig config;
+    config.noise_m = kSigma_m;
+    config.bend_m = 5.0 * kSigma_m;
+    sum_m += measure_arc_length(t_s, u_m, {}, config).s_m.back() - true_m;
+  }
+  EXPECT_LT(std::abs(sum_m) / kSeeds, 3.0 * std::numbers::sqrt2 * kSigma_m / std::sqrt(static_cast<double>(kSeeds)));
+}
+
 TEST(ArcLength, FollowsAnArcWithRests) {
   // The stroke bent to a radius of 60 mm.
   Stroke stroke = make_stroke();

@@ -152,6 +152,20 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.expected_correlation = 0.91;
          e.noise_rms_m = 19e-6;
        }},
+      {"below_noise", "at most 92 µm RMS",
+       [](ScanEvidence& e) {
+         e.snr = 0.0;
+         e.pattern_found = true;
+         e.expected_correlation = 0.81;  // below √(2/3)
+         e.at_most_m = 92e-6;
+       }},
+      {"noisy_texture", "50 µm RMS 19 µm",
+       [](ScanEvidence& e) {
+         e.snr = 0.0;
+         e.pattern_found = true;
+         e.expected_correlation = 0.83;
+         e.noise_rms_m = 19e-6;
+       }},
       {"noisy_texture", "50 µm RMS 19 µm",
        [](ScanEvidence& e) {
          e.snr = 3.0;

@@ -68,9 +68,11 @@ struct ScanEvidence {
   double noise_rms_m = kUnknown;           // expected in it
   double snr = kUnknown;                   // power of the surface over that of the noise
   double expected_correlation = kUnknown;  // of the texture, noise removed, with the surface
-  double stretch_correlation = kUnknown;   // of that, what the error of the path's length leaves
-  double end_place_sigma_m = kUnknown;     // of a position at the path's ends, by that error
-  double at_most_m = kUnknown;             // upper bound of the surface's RMS, 97.5 %
+  // A pattern was found whose line stands out of the largest noise that is possible (find_periodicity_under_noise.h).
+  bool pattern_found = false;
+  double stretch_correlation = kUnknown;  // of that, what the error of the path's length leaves
+  double end_place_sigma_m = kUnknown;    // of a position at the path's ends, by that error
+  double at_most_m = kUnknown;            // upper bound of the surface's RMS, 97.5 %
   // Passes of the path over one line: that line which contradicts the stated noise the most.
   PassEvidence passes{kUnknown, kUnknown, kUnknown};
   std::size_t sticks = 0;    // times that the tip was held between two slides

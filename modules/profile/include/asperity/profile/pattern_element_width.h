@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+
+#include "asperity/base/nan.h"
+#include "asperity/profile/find_periodicity.h"
+#include "asperity/profile/measure_roughness.h"
+#include "asperity/profile/texture_noise.h"
+
+namespace asperity {
+
+struct ElementWidth {
+  double mean_m = kNan;
+  double stderr_m = kNan;
+};
+
+// RSm of a pattern whose single elements are lost in noise: its pitch over the number of elements of its mean period
+// (ISO 21920-2: an element is a hill and the pit next to it, each at least `config.element_height` of Rz). Averaging
+// over the periods leaves of noise that does not repeat 1/√periods.
+//
+// `height_m` is the texture with its noise removed (m, nan in gaps), `noise` that of it. Not determined (nan) where no
+// pattern is periodic, where the noise that the mean period keeps reaches the least height of an element, and where
+// the number of elements is not the same with half and with twice that height. The standard error is the pitch's, and
+// one element more or less over the whole profile: single periods may have one that their mean has not.
+ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
+                                   const TextureNoise& noise, const RoughnessConfig& config = {});
+
+}  // namespace asperity

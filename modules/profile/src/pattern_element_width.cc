@@ -1,0 +1,71 @@
+#include "asperity/profile/pattern_element_width.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "profile_features.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t kFewestBins = 16, kMostBins = 400;  // of a period
+constexpr std::size_t kRepeated = 8;                      // mean periods in a row, so that cut elements hardly count
+constexpr double kWhole = 0.1;                            // from a whole number of elements
+
+// Empty where a part of the period was never measured.
+std::vector<double> mean_period(std::span<const double> height_m, double spacing_m, double pitch_m) {
+  const auto bins = std::clamp(static_cast<std::size_t>(std::lround(pitch_m / spacing_m)), kFewestBins, kMostBins);
+  std::vector<double> sum(bins, 0.0), count(bins, 0.0);
+  for (std::size_t i = 0; i < height_m.size(); ++i) {
+    if (!std::isfinite(height_m[i])) continue;
+    const double phase = std::fmod(static_cast<double>(i) * spacing_m / pitch_m, 1.0);
+    const std::size_t bin = std::min(bins - 1, static_cast<std::size_t>(phase * static_cast<double>(bins)));
+    sum[bin] += height_m[i];
+    count[bin] += 1.0;
+  }
+  double mean = 0.0;
+  for (std::size_t b = 0; b < bins; ++b) {
+    if (count[b] == 0.0) return {};
+    sum[b] /= count[b];
+    mean += sum[b] / static_cast<double>(bins);
+  }
+  for (double& h : sum) h -= mean;
+  return sum;
+}
+
+}  // namespace
+
+ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
+                                   const TextureNoise& noise, const RoughnessConfig& config) {
+  ElementWidth out;
+  if (!pattern.periodic || pattern.periods == 0 || !(pattern.pitch_m > 0.0) || !std::isfinite(pattern.pitch_stderr_m))
+    return out;
+  const std::vector<double> period = mean_period(height_m, spacing_m, pattern.pitch_m);
+  if (period.empty()) return out;
+  const auto [lowest, highest] = std::minmax_element(period.begin(), period.end());
+  const double least_m = config.element_height * (*highest - *lowest);
+  const auto periods = static_cast<double>(pattern.periods);
+  if (!(noise.noise_rms_m / std::sqrt(periods) < least_m)) return out;
+
+  std::vector<double> row;
+  for (std::size_t k = 0; k < kRepeated; ++k) row.insert(row.end(), period.begin(), period.end());
+  const double step_m = pattern.pitch_m / static_cast<double>(period.size());
+  const double least_width_m =
+      config.element_width * spacing_m * static_cast<double>(height_m.size()) / static_cast<double>(config.sections);
+  double elements = 0.0;
+  for (const double times : {0.5, 1.0, 2.0}) {
+    const ElementWidths widths = element_widths(row, step_m, times * least_m, least_width_m);
+    if (widths.count == 0) return out;
+    const double found = pattern.pitch_m * static_cast<double>(widths.count) / widths.sum_m;
+    if (std::abs(found - std::round(found)) > kWhole || (elements > 0.0 && std::round(found) != elements)) return out;
+    elements = std::round(found);
+  }
+  out.mean_m = pattern.pitch_m / elements;
+  out.stderr_m = std::hypot(pattern.pitch_stderr_m / elements, out.mean_m / periods);
+  return out;
+}
+
+}  // namespace asperity
