@@ -19,13 +19,14 @@ constexpr double kPathRate_hz = 200.0;   // ample for directions that change at 
 constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
 
 constexpr double kLowestCutoff_hz = 0.2;
-constexpr double kLengthened = 2e-4;       // of the length: what noise in the direction may add
-constexpr double kLastingMotion_s = 0.25;  // shorter is noise that looks like motion
-constexpr double kRestLevel_s = 0.5;  // for the place of a rest's outer end: several times the position's correlation
-constexpr double kClearMotion = 4.0;  // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;     // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;  // standard deviations: further no noise carries the tip
-constexpr double kSameWay = 0.5;      // cosine: two directions within 60° are no reversal
+constexpr double kLengthened = 2e-4;                          // of the length: what noise in the direction may add
+constexpr double kLastingMotion_s = 0.25;                     // shorter is noise that looks like motion
+constexpr double kLongestEnd_s = 0.5, kShortestEnd_s = 0.02;  // over which a rest's outer end is averaged
+constexpr double kCreep_mps = 0.5e-3;                         // of a tip that slides down a slope while the hand rests
+constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
 constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
@@ -137,7 +138,7 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
   return at;
 }
 
-// The rest [begin, start) before a path, of which [begin, level) is its first half second: s has the median of that, up
+// The rest [begin, start) before a path, of which [begin, level) is its outer end: s has the median of that, up
 // to the last sample at which it still was there. From there on it is as measured: a tip that creeps down a slope
 // during its rest is on its way.
 void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t level, std::size_t start, std::size_t stop) {
@@ -150,7 +151,7 @@ void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t level,
             level_m);
 }
 
-// The same of the rest [stop, end) after it, of which [level, end) is its last half second.
+// The same of the rest [stop, end) after it, of which [level, end) is its outer end.
 void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t level, std::size_t end) {
   if (end <= stop) return;
   level = std::min(level, end - 1);
@@ -226,8 +227,11 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     const auto at = [&](double time_s) {
       return static_cast<std::size_t>(std::lower_bound(t_s.begin(), t_s.end(), time_s) - t_s.begin());
     };
-    hold_before(out.s_m, begin, std::min(start, at(t_s[begin] + kRestLevel_s)), start, stop);
-    hold_after(out.s_m, start, stop, std::max(stop, at(t_s[end - 1] - kRestLevel_s)), end);
+    // As long as it takes a tip that creeps to go by one standard deviation.
+    const double end_s =
+        config.noise_m > 0.0 ? std::clamp(config.noise_m / kCreep_mps, kShortestEnd_s, kLongestEnd_s) : kLongestEnd_s;
+    hold_before(out.s_m, begin, std::min(start, at(t_s[begin] + end_s)), start, stop);
+    hold_after(out.s_m, start, stop, std::max(stop, at(t_s[end - 1] - end_s)), end);
     const double first_m = out.s_m[begin];
     const double last_m = out.s_m[end - 1] - first_m;
     for (std::size_t i = begin; i < end; ++i) {

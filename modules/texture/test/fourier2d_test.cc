@@ -127,10 +127,11 @@ TEST(SynthesizeIsotropic, IsTheSumOfItsWaves) {
   // A cubic spline through 16 points a wave misses the wave by less than a thousandth between them.
   EXPECT_NEAR(mean_of([&](double x, double y) { return std::pow(height(x, y) - 5e-6, 2); }), 8 * power_m2,
               8e-3 * power_m2);
-  for (const auto& [m, n] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {1.0, -1.0}}) {
-    const double c = mean_of([&](double x, double y) { return height(x, y) * std::cos(200 * pi * (m * x + n * y)); });
-    const double s = mean_of([&](double x, double y) { return height(x, y) * std::sin(200 * pi * (m * x + n * y)); });
-    EXPECT_NEAR(c * c + s * s, power_m2, 2e-3 * power_m2) << m << "," << n;
+  for (const std::pair<double, double>& wave : {std::pair{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {1.0, -1.0}}) {
+    const auto angle = [&](double x, double y) { return 200 * pi * (wave.first * x + wave.second * y); };
+    const double c = mean_of([&](double x, double y) { return height(x, y) * std::cos(angle(x, y)); });
+    const double s = mean_of([&](double x, double y) { return height(x, y) * std::sin(angle(x, y)); });
+    EXPECT_NEAR(c * c + s * s, power_m2, 2e-3 * power_m2) << wave.first << "," << wave.second;
   }
 }
 
