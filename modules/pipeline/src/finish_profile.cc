@@ -31,8 +31,8 @@ void measure_again(const Recording& recording, const ProcessConfig& config, Meas
   s.trajectory.value = std::move(result.trajectory);
   s.base.value = std::move(result.base);
   s.profile.value = std::move(measured);
-  s.roughness = stage::measure_roughness(config, s);
   s.periodicity = stage::find_periodicity(config, s);
+  s.roughness = stage::measure_roughness(config, s);
   s.spectrum = stage::measure_spectrum(s);
   s.compliance.value = std::move(result.compliance);
   s.stiffness.value = std::move(result.stiffness);

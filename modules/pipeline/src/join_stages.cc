@@ -7,7 +7,6 @@
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/pipeline/scan_evidence.h"
-#include "asperity/profile/pattern_element_width.h"
 #include "asperity/profile/stiffness_of_compliance.h"
 #include "asperity/verdict/judge_scan.h"
 #include "process_stages.h"
@@ -69,21 +68,9 @@ Texture join_texture(const std::string& object, const ProcessMethod& method, con
 
 namespace {
 
-// Where noise hides the single elements, those of the pattern.
-void add_element_width(const ProcessConfig& config, ProcessResult& result) {
-  RoughnessResult& roughness = *result.roughness;
-  if (std::isfinite(roughness.RSm_m) || config.roughness.lambda_s_mm > 0.0 || config.roughness.lambda_c_mm > 0.0)
-    return;
-  const Profile& profile = result.profile;
-  const ElementWidth width =
-      pattern_element_width(profile.texture_m, profile.spacing_m, result.periodicity, result.noise, config.roughness);
-  roughness.RSm_m = width.mean_m;
-  roughness.standard_error.RSm_m = width.stderr_m;
-}
-
 // What was measured on the surface.
-void add_surface(const Recording& recording, const ProcessConfig& config, const ProcessMethod& method,
-                 ProcessStages& stages, ProcessResult& result) {
+void add_surface(const Recording& recording, const ProcessMethod& method, ProcessStages& stages,
+                 ProcessResult& result) {
   add_problems(result, stages.base);
   add_problems(result, stages.profile);
   add_problems(result, stages.roughness);
@@ -100,7 +87,6 @@ void add_surface(const Recording& recording, const ProcessConfig& config, const 
   result.surface = std::move(stages.profile.value->surface);
   result.roughness = std::move(stages.roughness.value);
   result.periodicity = std::move(stages.periodicity.value).value_or(Periodicity{});
-  if (result.roughness) add_element_width(config, result);
   result.spectrum = std::move(stages.spectrum.value).value_or(SurfaceSpectrum{});
   result.compliance = std::move(stages.compliance.value).value_or(Compliance{});
   result.stiffness = std::move(stages.stiffness.value).value_or(StiffnessEstimate{});
@@ -119,7 +105,7 @@ ProcessResult join_stages(const Recording& recording, const ProcessConfig& confi
   add_problems(result, stages.trajectory);
   result.trajectory = std::move(*stages.trajectory.value);
 
-  add_surface(recording, config, method, stages, result);
+  add_surface(recording, method, stages, result);
   add_problems(result, stages.accuracy);
   result.accuracy = std::move(stages.accuracy.value);
   result.verdicts = judge_scan(scan_evidence(recording, result));

@@ -205,8 +205,8 @@ ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::str
     if (config.process.profile.remove_noise)
       remove_noise(config.process.profile.bridge_m, measured.profile, measured.noise);
     measured.coverage = measure_coverage(measured.profile);
-    stages.roughness = stage::measure_roughness(config.process, stages);
     stages.periodicity = stage::find_periodicity(config.process, stages);
+    stages.roughness = stage::measure_roughness(config.process, stages);
     stages.spectrum = stage::measure_spectrum(stages);
     stages.fit = stage::fit_texture(config.process, stages);
     for (const Problems* problems : {&stages.roughness.problems, &stages.fit.problems})

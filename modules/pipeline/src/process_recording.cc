@@ -28,8 +28,8 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
 
   // What it says of the surface (seed §5.2).
   observer.update("roughness", 0.85);
-  s.roughness = stage::measure_roughness(config, s);
   s.periodicity = stage::find_periodicity(config, s);
+  s.roughness = stage::measure_roughness(config, s);
   s.spectrum = stage::measure_spectrum(s);
 
   // How it yields (seed §5.3, erratum 15).

@@ -15,6 +15,7 @@
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
+#include "asperity/profile/pattern_element_width.h"
 #include "asperity/profile/unroll_path.h"
 #include "measure_on_surface.h"
 #include "repeated_lines.h"
@@ -152,8 +153,16 @@ Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const Pr
   const Profile& profile = before.profile.value->profile;
   const TextureNoise& noise = before.profile.value->noise;
   return attempt_step<RoughnessResult>("no_roughness", "roughness", [&] {
-    return measure_roughness_under_noise(before.profile.value->measured_texture_m, profile.spacing_m, noise,
-                                         config.roughness);
+    RoughnessResult out = measure_roughness_under_noise(before.profile.value->measured_texture_m, profile.spacing_m,
+                                                        noise, config.roughness);
+    // Where noise hides the single elements, those of the pattern.
+    if (!std::isfinite(out.RSm_m) && before.periodicity.value) {
+      const ElementWidth width = pattern_element_width(profile.texture_m, profile.spacing_m, *before.periodicity.value,
+                                                       noise, config.roughness);
+      out.RSm_m = width.mean_m;
+      out.standard_error.RSm_m = width.stderr_m;
+    }
+    return out;
   });
 }
 

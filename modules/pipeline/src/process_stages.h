@@ -61,6 +61,7 @@ Outcome<BasePathResult> find_base_path(const Recording& recording, const Process
                                        const ProcessMethod& method, ProcessStages& before);
 Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessConfig& config,
                                       const ProcessMethod& method, const ProcessStages& before);
+// With the periodicity: its elements, where noise hides the single ones.
 Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before);
 Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before);
 Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before);

@@ -11,11 +11,14 @@
 #include "asperity/pipeline/compare_with_tracker.h"
 #include "asperity/pipeline/reference.h"
 #include "asperity/profile/find_contact.h"
+#include "asperity/profile/line_over_time.h"
 #include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
 
 namespace {
+
+constexpr double kLineOfThePath = 0.5;  // power over time by that over the path
 
 double span_s(const std::vector<std::int64_t>& t_ns) {
   return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
@@ -259,7 +262,10 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.noise_rms_m = result.noise.noise_rms_m;
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
-  out.pattern_found = result.periodicity.periodic && std::isfinite(result.periodicity.pitch_stderr_m);
+  // Hum at a constant speed is a line too. Over a path that bends the pattern's own lines are of the bend.
+  const Periodicity& pattern = result.periodicity;
+  out.pattern_found = pattern.periodic && std::isfinite(pattern.pitch_stderr_m) &&
+                      line_over_time(profile, profile.texture_m, pattern.pitch_m) < kLineOfThePath;
   out.stretch_correlation = result.noise.stretch_correlation;
   out.end_place_sigma_m = result.noise.end_place_sigma_m;
   out.at_most_m = result.noise.at_most_m;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -22,7 +23,8 @@ constexpr double kLowestCutoff_hz = 0.2;
 constexpr double kLengthened = 2e-4;                          // of the length: what noise in the direction may add
 constexpr double kLastingMotion_s = 0.25;                     // shorter is noise that looks like motion
 constexpr double kLongestEnd_s = 0.5, kShortestEnd_s = 0.02;  // over which a rest's outer end is averaged
-constexpr double kCreep_mps = 0.5e-3;                         // of a tip that slides down a slope while the hand rests
+constexpr double kCreep_mps = 0.5e-3;    // about as fast as tips slide down the edge of a hole on both benches
+constexpr double kCrept = 2.0;           // standard deviations
 constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
 constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
 constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
@@ -75,31 +77,50 @@ struct Directions {
 
 // The direction of travel in a moving cell: that of the slow path, which noise hardly turns; where that
 // cuts a bend by more than noise could, that of the quick one.
-Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, double bend_m) {
+Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, double bend_m,
+                          bool beside_stop) {
   Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
-  // Where the speed changes, as at a rest, the low-pass moves the path along itself: that is no bend, unless the path
-  // turns round.
+  // Where the tip stops and starts the low-pass moves the path along itself: that is no bend, unless the path turns
+  // round.
   const Eigen::Vector2d along = gentle.normalized();
   Eigen::Vector2d cut_m = slow.p_m[cell] - quick.p_m[cell];
-  if (along.dot(tight) > kSameWay) cut_m -= along.dot(cut_m) * along;
+  if (beside_stop && along.dot(tight) > kSameWay) cut_m -= along.dot(cut_m) * along;
   const double share = std::clamp(cut_m.norm() / bend_m - 1.0, 0.0, 1.0);
   const Eigen::Vector2d mixed = (1.0 - share) * along + share * tight;
   return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
 }
 
+// Marks the cells that are within a period of the slow low-pass of a stop of kLastingMotion_s or more.
+std::vector<char> beside_stops(const std::vector<char>& moving, double slow_Hz, double step_s) {
+  const auto reach = static_cast<std::size_t>(1.0 / (slow_Hz * step_s));
+  const auto lasting = static_cast<std::size_t>(kLastingMotion_s / step_s);
+  std::vector<char> out(moving.size(), 0);
+  for (std::size_t i = 0; i < moving.size();) {
+    std::size_t end = i;
+    while (end < moving.size() && moving[end] == 0) ++end;
+    if (end >= i + lasting) {
+      const std::size_t first = i > reach ? i - reach : 0, last = std::min(moving.size(), end + reach);
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(first), out.begin() + static_cast<std::ptrdiff_t>(last),
+                char{1});
+    }
+    i = end + 1;
+  }
+  return out;
+}
+
 // Moving cells have the direction of their velocity. A rest between two of them keeps the first
 // direction up to the point that lies outermost between the two, and has the second from there.
 Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, const EvenPath<2>& quick,
-                           const std::vector<char>& moving, double bend_m) {
+                           const std::vector<char>& moving, const std::vector<char>& beside_stop, double bend_m) {
   const std::size_t n = path.size();
   Directions out;
   out.tangent.assign(n, Eigen::Vector2d::UnitX());
   std::size_t last = n;
   for (std::size_t i = 0; i < n; ++i) {
     if (moving[i] == 0) continue;
-    out.tangent[i] = direction(slow, quick, i, bend_m);
+    out.tangent[i] = direction(slow, quick, i, bend_m, beside_stop[i] != 0);
     if (last == n) {
       std::fill(out.tangent.begin(), out.tangent.begin() + static_cast<std::ptrdiff_t>(i), out.tangent[i]);
     } else if (i > last + 1) {
@@ -138,12 +159,19 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
   return at;
 }
 
-// The rest [begin, start) before a path, of which [begin, level) is its outer end: s has the median of that, up
-// to the last sample at which it still was there. From there on it is as measured: a tip that creeps down a slope
-// during its rest is on its way.
-void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t level, std::size_t start, std::size_t stop) {
+// The place of a rest, s_m in time's order from its outer end: the median, so that it has not the noise of one end.
+// Where the tip has crept by more than noise, as down a slope, it is where the rest's outer end was.
+double rest_level_m(std::vector<double> s_m, std::size_t outer, double noise_m) {
+  const std::size_t third = std::max<std::size_t>(1, s_m.size() / 3);
+  const std::span<const double> all(s_m);
+  const bool crept = noise_m > 0.0 && std::abs(median(all.first(third)) - median(all.last(third))) > kCrept * noise_m;
+  return median(crept ? all.first(std::clamp<std::size_t>(outer, 1, s_m.size())) : all);
+}
+
+// In the rest [begin, start) before a path s has its level, up to the last sample at which it still was there. From
+// there on it is as measured, so that s has no step where the tip begins to creep.
+void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t start, std::size_t stop, double level_m) {
   if (start <= begin) return;
-  const double level_m = median(std::span<const double>(s_m.data() + begin, std::max(level, begin + 1) - begin));
   std::size_t leaves = start;
   while (leaves < stop && s_m[leaves] <= level_m) ++leaves;
   while (leaves > begin && s_m[leaves - 1] > level_m) --leaves;
@@ -151,11 +179,9 @@ void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t level,
             level_m);
 }
 
-// The same of the rest [stop, end) after it, of which [level, end) is its outer end.
-void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t level, std::size_t end) {
+// The same of the rest [stop, end) after it.
+void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t end, double level_m) {
   if (end <= stop) return;
-  level = std::min(level, end - 1);
-  const double level_m = median(std::span<const double>(s_m.data() + level, end - level));
   std::size_t arrives = stop;
   while (arrives > start && s_m[arrives - 1] >= level_m) --arrives;
   while (arrives < end && s_m[arrives] < level_m) ++arrives;
@@ -190,16 +216,18 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const std::vector<double> rough_mps = speeds(low_pass(path, kSpeedCutoff_hz));
   const std::span<const double> travelled(rough_mps.data() + first_cell, last_cell - first_cell + 1);
   const double usual_mps = percentile(travelled, 80.0);
-  const auto smoothed_at = [&](double cutoff_cycles_per_mm) {
-    return low_pass(path, std::max(kLowestCutoff_hz, cutoff_cycles_per_mm * 1e3 * usual_mps));
+  const auto cutoff_Hz = [&](double cycles_per_mm) {
+    return std::max(kLowestCutoff_hz, cycles_per_mm * 1e3 * usual_mps);
   };
   // Below a cut-off f, noise of σ that reaches beyond it turns the direction by 2πfσ/√3, and lengthens by half the
   // square.
   const double quiet_cycles_per_mm =
       config.noise_m > 0.0 ? std::sqrt(6.0 * kLengthened) / (2.0 * std::numbers::pi * 1e3 * config.noise_m)
                            : config.direction_cutoff_cycles_per_mm;
-  const auto slow = smoothed_at(std::min(config.direction_cutoff_cycles_per_mm, quiet_cycles_per_mm));
-  const auto quick = smoothed_at(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm));
+  const double slow_Hz = cutoff_Hz(std::min(config.direction_cutoff_cycles_per_mm, quiet_cycles_per_mm));
+  const auto slow = low_pass(path, slow_Hz);
+  const auto quick =
+      low_pass(path, cutoff_Hz(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm)));
   const std::vector<double> speed = speeds(quick);
   const double wander_mps = wandering_mps(slow, quick, speed, usual_mps, first_cell, last_cell);
   const double rest_mps = std::max(std::max(config.rest_speed_mps, config.rest_fraction * usual_mps),
@@ -207,16 +235,16 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
   leave_out_noise(quick, kBeyondNoise * config.noise_m, moving);
-  const Directions directions =
-      find_directions(path, slow, quick, moving, config.bend_m > 0.0 ? config.bend_m : kUsualBend_m);
+  const Directions directions = find_directions(path, slow, quick, moving, beside_stops(moving, slow_Hz, path.step_s),
+                                                config.bend_m > 0.0 ? config.bend_m : kUsualBend_m);
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {
     const Eigen::Vector2d& tangent = directions.tangent[index_at(path, 0.5 * (t_s[i - 1] + t_s[i]))];
     out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
   }
-  // The path lies between where the rests before and after it begin and end, by medians: the lowest of many noisy s
-  // would be too low, and the length too long.
+  // The path lies between the places of the rests before and after it: the lowest of many noisy s would be too low, and
+  // the length too long.
   const auto lasting = static_cast<std::size_t>(kLastingMotion_s * kPathRate_hz);
   const std::size_t starts = first_lasting(moving.begin(), moving.end(), lasting);
   const std::size_t stops = path.size() - first_lasting(moving.rbegin(), moving.rend(), lasting);
@@ -224,14 +252,14 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     std::size_t start = begin, stop = end;
     while (start < end && index_at(path, t_s[start]) < starts) ++start;
     while (stop > start && index_at(path, t_s[stop - 1]) >= stops) --stop;
-    const auto at = [&](double time_s) {
-      return static_cast<std::size_t>(std::lower_bound(t_s.begin(), t_s.end(), time_s) - t_s.begin());
-    };
     // As long as it takes a tip that creeps to go by one standard deviation.
-    const double end_s =
-        config.noise_m > 0.0 ? std::clamp(config.noise_m / kCreep_mps, kShortestEnd_s, kLongestEnd_s) : kLongestEnd_s;
-    hold_before(out.s_m, begin, std::min(start, at(t_s[begin] + end_s)), start, stop);
-    hold_after(out.s_m, start, stop, std::max(stop, at(t_s[end - 1] - end_s)), end);
+    const double end_s = std::clamp(config.noise_m / kCreep_mps, kShortestEnd_s, kLongestEnd_s);
+    const auto outer = static_cast<std::size_t>(end_s * static_cast<double>(end - begin) / (t_s[end - 1] - t_s[begin]));
+    const auto s_at = [&](std::size_t i) { return out.s_m.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::vector<double> before(s_at(begin), s_at(start));
+    const std::vector<double> after(std::make_reverse_iterator(s_at(end)), std::make_reverse_iterator(s_at(stop)));
+    if (!before.empty()) hold_before(out.s_m, begin, start, stop, rest_level_m(before, outer, config.noise_m));
+    if (!after.empty()) hold_after(out.s_m, start, stop, end, rest_level_m(after, outer, config.noise_m));
     const double first_m = out.s_m[begin];
     const double last_m = out.s_m[end - 1] - first_m;
     for (std::size_t i = begin; i < end; ++i) {

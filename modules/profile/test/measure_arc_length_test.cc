@@ -109,7 +109,7 @@ TEST(ArcLength, NoiseInARestOnTheWayIsNoTravel) {
 }
 
 // Where the tip stops and starts, the low-pass moves the path along itself. That was taken for a bend, and the
-// direction there followed the noise: 0.4 mm more of 40 with rests on the way.
+// direction there followed the noise: 0.4 mm more of 75 with five stops.
 TEST(ArcLength, RestsOnTheWayOfAStraightPathDoNotLengthenIt) {
   constexpr double kSigma_m = 0.15e-3;
   constexpr int kSeeds = 16;
@@ -142,6 +142,7 @@ TEST(ArcLength, ATipThatCreepsDuringItsRestsIsOnItsWay) {
   double sum_m = 0.0;
   constexpr int kSeeds = 8;
   for (int seed = 1; seed <= kSeeds; ++seed) {
+    const double from_s = seed % 2 == 0 ? 0.7 : 0.1;
     std::vector<double> t_s;
     std::vector<Eigen::Vector2d> u_m;
     const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
@@ -151,7 +152,7 @@ TEST(ArcLength, ATipThatCreepsDuringItsRestsIsOnItsWay) {
       const double t = i / kRate_hz;
       true_m = 0.02 * std::clamp(t - 2.0, 0.0, 2.0);
       // 0.4 mm in half a second of each rest of 2 s.
-      true_m += kCreep_m * std::clamp((t - 0.7) / 0.5, 0.0, 1.0) + kCreep_m * std::clamp((t - 4.7) / 0.5, 0.0, 1.0);
+      true_m += kCreep_m * std::clamp((t - from_s) / 0.5, 0.0, 1.0) + kCreep_m * std::clamp((t - 4.7) / 0.5, 0.0, 1.0);
       t_s.push_back(t);
       u_m.emplace_back(true_m + x.next(), y.next());
     }
@@ -161,6 +162,27 @@ TEST(ArcLength, ATipThatCreepsDuringItsRestsIsOnItsWay) {
     sum_m += measure_arc_length(t_s, u_m, {}, config).s_m.back() - true_m;
   }
   EXPECT_LT(std::abs(sum_m) / kSeeds, 3.0 * std::numbers::sqrt2 * kSigma_m / std::sqrt(static_cast<double>(kSeeds)));
+}
+
+// Corners at which the tip only slows down are bends, of which little is cut.
+TEST(ArcLength, FollowsAZigzag) {
+  std::vector<double> t_s;
+  std::vector<Eigen::Vector2d> u_m;
+  double true_m = 0.0;
+  Eigen::Vector2d at(0.0, 0.0);
+  for (int i = 0; i <= 6000; ++i) {
+    // Six legs of 20 mm at right angles, with (1 − cos) speeds.
+    const int leg = std::min(5, i / 1000);
+    const double step_m = 0.02 * (1.0 - std::cos(2.0 * std::numbers::pi * (i % 1000) / 1000.0)) / kRate_hz;
+    true_m += step_m;
+    at += step_m * (leg % 2 == 0 ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY());
+    t_s.push_back(i / kRate_hz);
+    u_m.push_back(at);
+  }
+  ArcLengthConfig config;
+  config.noise_m = 0.05e-3;
+  config.bend_m = 0.25e-3;
+  EXPECT_NEAR(measure_arc_length(t_s, u_m, {}, config).s_m.back(), true_m, 0.15e-3);
 }
 
 TEST(ArcLength, FollowsAnArcWithRests) {

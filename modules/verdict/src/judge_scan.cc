@@ -225,7 +225,7 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
   const double by_noise = std::sqrt(e.snr / (1.0 + e.snr)), limit = std::sqrt(kInvisible_snr / (1.0 + kInvisible_snr));
   // By the whole path's power a few events stand out too: something must do so in a typical stretch (snr is of that).
   // A pattern goes over the whole path, and its line has been tested against the largest noise: where one is found,
-  // the expected correlation has to be no higher than that of the least SNR.
+  // the expected correlation need not be higher than that of the least SNR.
   const bool stands_out = e.snr >= kInvisible_snr ||
                           (e.snr > 0.0 && e.expected_correlation >= in_place * kSeen_correlation) ||
                           (e.pattern_found && e.expected_correlation >= in_place * limit);
@@ -236,13 +236,16 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
                                    1e6 * e.at_most_m, 1e6 * e.noise_rms_m)));
     return;
   }
-  if (in_place * by_noise < limit && !(e.expected_correlation >= kSeen_correlation) && in_place < by_noise) {
+  // What noise leaves: by the SNR or, where a line stands out of it, by the expected correlation.
+  const double seen = e.expected_correlation / in_place;
+  const double left = seen > by_noise ? seen : by_noise;
+  if (in_place * left < limit && !(e.expected_correlation >= kSeen_correlation) && in_place < left) {
     out.push_back(make_verdict(
         "positions_uncertain",
         fmt::format("the path's length has an error that moves heights by up to {:.2g} mm (standard deviation) from "
                     "their positions: the expected correlation with the surface is {:.2f}. Roughness and the ratio of "
                     "lengths are not affected",
-                    1e3 * e.end_place_sigma_m, in_place * by_noise)));
+                    1e3 * e.end_place_sigma_m, in_place * left)));
   }
   if (e.snr < kNoisy_snr) {
     out.push_back(

@@ -198,6 +198,22 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
   }
 }
 
+// A pattern's line shows that there is a texture, not where it lies: at an SNR of 0 the length's error counts all the
+// same.
+TEST(JudgeScan, APatternWhosePositionsAreUncertainIsInvalid) {
+  ScanEvidence evidence = good();
+  evidence.snr = 0.0;
+  evidence.pattern_found = true;
+  evidence.stretch_correlation = 0.5;
+  evidence.expected_correlation = 0.45;
+  evidence.end_place_sigma_m = 0.61e-3;
+  const Verdicts verdicts = judge_scan(evidence);
+  ASSERT_FALSE(verdicts.empty());
+  EXPECT_EQ(verdicts[0].code, "positions_uncertain");
+  EXPECT_THAT(verdicts[0].message, HasSubstr("the expected correlation with the surface is 0.45"));
+  EXPECT_FALSE(is_trustworthy(verdicts));
+}
+
 // Noise is not named as an error of the length, nor the other way about.
 TEST(JudgeScan, TheLargerOfNoiseAndMisplacementIsNamed) {
   ScanEvidence evidence = good();

@@ -19,9 +19,11 @@ struct ElementWidth {
 // over the periods leaves of noise that does not repeat 1/√periods.
 //
 // `height_m` is the texture with its noise removed (m, nan in gaps), `noise` that of it. Not determined (nan) where no
-// pattern is periodic, where the noise that the mean period keeps reaches the least height of an element, and where
-// the number of elements is not the same with half and with twice that height. The standard error is the pitch's, and
-// one element more or less over the whole profile: single periods may have one that their mean has not.
+// pattern is periodic, where its period changes along the path, where the profile is filtered, where the noise that the
+// mean period keeps reaches the least height of an element, where what does not repeat may be as high and is not noise
+// (it splits elements), and where the number of elements is not the same with half and with twice that height. The
+// standard error is the pitch's, and one element more or less over the whole profile: single periods may have one that
+// their mean has not.
 ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
                                    const TextureNoise& noise, const RoughnessConfig& config = {});
 

@@ -68,7 +68,8 @@ struct ScanEvidence {
   double noise_rms_m = kUnknown;           // expected in it
   double snr = kUnknown;                   // power of the surface over that of the noise
   double expected_correlation = kUnknown;  // of the texture, noise removed, with the surface
-  // A pattern was found whose line stands out of the largest noise that is possible (find_periodicity_under_noise.h).
+  // A pattern was found whose line stands out of the largest noise that is possible (find_periodicity_under_noise.h)
+  // and is one of the path, not of the time (line_over_time.h).
   bool pattern_found = false;
   double stretch_correlation = kUnknown;  // of that, what the error of the path's length leaves
   double end_place_sigma_m = kUnknown;    // of a position at the path's ends, by that error
