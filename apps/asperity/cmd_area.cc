@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangle_mesh.h"
@@ -37,7 +38,7 @@ class AreaCommand : public Command {
     std::error_code unknown;
     if (fs::equivalent(folder_, output_, unknown))
       throw UsageError("-o: " + printable(output_, 200) + " is REGISTERED itself; take another folder");
-    OutputFolder folder(output_, is_our_folder);
+    OutputFolder folder(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(folder_);
     const AreaInput input = read_area_input(folder_, observer, leave_out_);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -66,7 +67,7 @@ class ExportCommand : public Command {
       if (!source.has_filename()) source = source.parent_path();
       target = source.parent_path() / (source.filename().string() + "-" + format_);
     }
-    OutputFolder folder(target, is_our_folder);
+    OutputFolder folder(target, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(source_);
     ExportResult heights;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -132,7 +133,7 @@ class FeelCommand : public Command {
     if (!log_.empty()) refuse_stranger(log_, kFeelLogColumns, inputs);
     choose_device();
     std::optional<OutputFolder> folder;
-    if (!output_.empty()) folder.emplace(output_, is_our_folder);
+    if (!output_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(replay_.empty() ? input_.scene : replay_);
     const Scene scene = read_scene(observer);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -213,7 +214,7 @@ class ImportCommand : public Command {
       return is_trustworthy(judge_stroke(measure_stroke_evidence(reading.stroke))) ? kDone : kNotTrustworthy;
     }
     for (const std::string& doubt : reading.doubts) reading.stroke.problems.push_back({"implausible", doubt, 1});
-    OutputFolder folder(output_, is_our_folder);
+    OutputFolder folder(output_, naming_added(is_our_folder));
     Json out = asperity::write_stroke(folder.path(), reading.stroke, stroke_origins(reading.tables));
     write_listing(folder.path());
     commit_output(folder, output_);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/merge_results.h"
@@ -68,7 +69,7 @@ class MergeCommand : public Command {
 
   int run(const Observer& observer) override {
     if (inputs_.size() < 2) throw UsageError("PASS: a merge needs at least two strokes");
-    OutputFolder folder(output_, is_result_folder);
+    OutputFolder folder(output_, naming_added(is_result_folder));
     MergeInput input;
     const std::vector<std::string> names = stroke_names(inputs_);
     for (std::size_t i = 0; i < inputs_.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -82,7 +83,7 @@ class PaintCommand : public Command {
     if (mesh_.empty() && into_.empty()) throw UsageError("MESH is missing, or --into");
     if (output_.empty() && into_.empty()) throw UsageError("-o is missing: the folder of the scene, or --into");
     std::optional<OutputFolder> folder;
-    if (into_.empty()) folder.emplace(output_, is_our_folder);
+    if (into_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(into_.empty() ? mesh_ : into_);
     EarlierScene earlier = read(unit_m, observer);

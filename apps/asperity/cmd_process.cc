@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/in_background.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -205,7 +206,7 @@ class ProcessCommand : public Command {
         throw UsageError("two recordings are called '" + printable(folder_name(recording)) + "'");
       }
     }
-    OutputFolder folder(output_, is_result_folder);
+    OutputFolder folder(output_, naming_added(is_result_folder));
     std::string text;
     for (const std::string& path : recordings_) {
       const std::string name = folder_name(path);

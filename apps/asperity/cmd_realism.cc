@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -65,7 +66,7 @@ class RealismCommand : public Command {
 
   int run(const Observer& observer) override {
     std::optional<OutputFolder> folder;
-    if (!output_.empty()) folder.emplace(output_, is_our_folder);
+    if (!output_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     reads(rendered_);
     const RenderedInput input = read_rendered(rendered_, observer);
     reads(stroke_);

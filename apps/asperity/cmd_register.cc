@@ -15,6 +15,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -129,7 +130,7 @@ class RegisterCommand : public Command {
     const std::vector<int> placements = placements_option();
 
     std::optional<OutputFolder> folder;
-    if (into_.empty()) folder.emplace(output_, is_registration_folder);
+    if (into_.empty()) folder.emplace(output_, naming_added(is_registration_folder));
     observer.update("reading", 0.0);
     reads(into_.empty() ? files_.front() : into_, into_.empty() ? mesh_path : into_);
     RegisterInput input = read(mesh_path, unit_m, observer);

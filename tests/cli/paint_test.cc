@@ -130,6 +130,12 @@ TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
   std::filesystem::create_directory(path("strange"));
   write_text(path("strange/mine.txt"), "kept\n");
   EXPECT_EQ(run({"export", path("wave.texture.json"), "--to", "wav", "-o", path("strange")}).code, 1);
+  ASSERT_EQ(paint(path("plane.obj"), "5,7,0;35,7,0").code, 0);
+  write_text(path("out/mine.txt"), "kept\n");
+  const Outcome added = paint(path("plane.obj"), "5,7,0;35,7,0");
+  EXPECT_EQ(added.code, 1);
+  EXPECT_THAT(added.err, testing::HasSubstr("out: the file mine.txt was not written by asperity; nothing was changed"));
+  EXPECT_EQ(content_of(path("out/mine.txt")), "kept\n");
 }
 
 }  // namespace

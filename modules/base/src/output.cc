@@ -193,7 +193,8 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
   if (fs::exists(target_, error)) {
     if (!fs::is_directory(target_)) throw Error(target_.string() + ": exists and is not a folder");
     if (!fs::is_empty(target_) && !is_ours(target_)) {
-      throw Error(target_.string() + ": exists and was not written by asperity; nothing was changed");
+      throw Error(target_.string() +
+                  ": exists and was not written by asperity; nothing was changed. Choose another output folder");
     }
     known_ = names_in(target_, error);
   }
