@@ -110,6 +110,7 @@ class PaintCommand : public Command {
     } else {
       name_kept(target, scene_folder->commit());
     }
+    for (const std::string& note : covered_notes(result, object, texture)) print_error("paint: " + note);
     print_json(json);
     say(summary(result, texture) + "scene in " + printable(target.string(), 200) + "\n");
     return kDone;

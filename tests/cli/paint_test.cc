@@ -138,5 +138,38 @@ TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
   EXPECT_EQ(content_of(path("out/mine.txt")), "kept\n");
 }
 
+// Nothing of an earlier texture is covered without a word.
+TEST_F(PaintCommands, ACoveredTextureIsNamed) {
+  const Outcome first = paint(path("plane.obj"), "5,7,0;35,7,0");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.err, "");
+  EXPECT_TRUE(Json::parse(first.out).at("covered").empty());
+  const auto into = [&](const std::string& through, const std::string& extra = "--quiet") {
+    return run({"paint", "--into", path("out/scene.json"), "--through", through, "--texture", path("wave.texture.json"),
+                "--json", extra});
+  };
+  const Outcome across = into("20,2,0;20,18,0");
+  ASSERT_EQ(across.code, 0) << across.err;
+  const Json json = Json::parse(across.out);
+  ASSERT_EQ(json.at("covered").size(), 1U);
+  const Json& covered = json.at("covered")[0];
+  EXPECT_EQ(covered.at("index"), 1);
+  EXPECT_EQ(covered.at("file"), "wave.texture.json");
+  EXPECT_EQ(covered.at("triangles"), json.at("painted_over"));
+  EXPECT_EQ(covered.at("triangles").get<int>() + covered.at("rendered_still").get<int>(),
+            Json::parse(first.out).at("triangles").get<int>());
+  EXPECT_THAT(across.err, testing::HasSubstr("paint: texture 2 covers texture 1 (wave.texture.json) on " +
+                                             std::to_string(covered.at("triangles").get<int>()) + " triangles"));
+  EXPECT_EQ(Json::parse(content_of(path("out/paint.json"))).at("covered"), json.at("covered"));
+  // At the very same place: nothing of both is left in view.
+  const Outcome same = into("5,7,0;35,7,0");
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.err, testing::HasSubstr("no other triangle shows texture 1"));
+  const Outcome under = into("5,7,0;35,7,0", "--under");
+  ASSERT_EQ(under.code, 0) << under.err;
+  EXPECT_TRUE(Json::parse(under.out).at("covered").empty());
+  EXPECT_EQ(under.err, "");
+}
+
 }  // namespace
 }  // namespace asperity::cli
