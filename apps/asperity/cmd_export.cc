@@ -63,9 +63,7 @@ class ExportCommand : public Command {
     }
     fs::path target = output_;
     if (target.empty()) {
-      fs::path source = fs::absolute(source_).lexically_normal();
-      if (!source.has_filename()) source = source.parent_path();
-      target = source.parent_path() / (source.filename().string() + "-" + format_);
+      target = beside(source_, format_);
     }
     OutputFolder folder(target, naming_added(is_our_folder));
     observer.update("reading", 0.0);
@@ -119,6 +117,18 @@ class ExportCommand : public Command {
     ExportResult out = export_scene(scene, format, config_);
     add_material_images(source_, scene, format, out);
     return out;
+  }
+
+  // SOURCE-FORMAT beside the source, relative if that is given so; "." and ".." have a name from above alone.
+  static fs::path beside(const fs::path& given, const std::string& format) {
+    fs::path source = given.lexically_normal();
+    if (!source.has_filename()) source = source.parent_path();
+    const fs::path name = source.filename();
+    if (name.empty() || name == "." || name == "..") {
+      const fs::path whole = fs::weakly_canonical(fs::absolute(given));
+      return (source / ".." / (whole.filename().string() + "-" + format)).lexically_normal();
+    }
+    return source.parent_path() / (name.string() + "-" + format);
   }
 
   static ExportResult with_heights(ExportResult files, ExportResult heights) {

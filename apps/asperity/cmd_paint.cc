@@ -99,7 +99,7 @@ class PaintCommand : public Command {
         paint(object, picks, texture, settings_.coordinates, under_ ? LayAt::kUnder : LayAt::kOver);
     reads("");
     observer.update("writing", 1.0);
-    const fs::path target = into_.empty() ? fs::path(output_) : earlier.folder;
+    const fs::path shown = into_.empty() ? fs::path(output_) : earlier.given;
     const fs::path place = folder ? folder->path() : scene_folder->path();
     const std::string json = to_json(result, object, texture).dump_repaired(2);
     write_file(place / "paint.json", json + "\n");
@@ -108,11 +108,11 @@ class PaintCommand : public Command {
     if (folder) {
       commit_output(*folder, output_);
     } else {
-      name_kept(target, scene_folder->commit());
+      name_kept(shown, scene_folder->commit());
     }
     for (const std::string& note : covered_notes(result, object, texture)) print_error("paint: " + note);
     print_json(json);
-    say(summary(result, texture) + "scene in " + printable(target.string(), 200) + "\n");
+    say(summary(result, texture) + "scene in " + printable(shown.string(), 200) + "\n");
     return kDone;
   }
 

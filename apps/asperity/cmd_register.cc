@@ -144,7 +144,7 @@ class RegisterCommand : public Command {
     observer.update("writing", 1.0);
     input.onto.at = under_ ? LayAt::kUnder : LayAt::kOver;
     input.onto.date = date_;
-    const fs::path target = into_.empty() ? fs::path(output_) : input.onto.folder;
+    const fs::path target = into_.empty() ? fs::path(output_) : input.onto.given;
     const fs::path place = folder ? folder->path() : scene_folder->path();
     const bool listing = input.onto.files.contains("files.json");
     write_registration(place, result, input.scans, std::move(input.onto), listing);
@@ -221,7 +221,7 @@ class RegisterCommand : public Command {
     observer.update("writing", 1.0);
     write_scene_again(folder.path(), earlier, dropped, folder.has_listing());
     if (folder.has_listing()) write_listing(folder.path());
-    name_kept(earlier.folder, folder.commit());
+    name_kept(earlier.given, folder.commit());
     Json out;
     out["format"] = "asperity-register-remove";
     out["version"] = 1;

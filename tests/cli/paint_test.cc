@@ -171,5 +171,36 @@ TEST_F(PaintCommands, ACoveredTextureIsNamed) {
   EXPECT_EQ(under.err, "");
 }
 
+// What is printed is relative to what was given, and a scene may be moved.
+TEST_F(PaintCommands, PathsAreThoseThatWereGiven) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(dir_.path());
+  const Outcome painted = run({"paint", "plane.obj", "--through", "5,7,0;35,7,0", "--texture", "wave.texture.json",
+                               "--mesh-unit", "mm", "-o", "out"});
+  const Outcome into =
+      run({"paint", "--into", "out/scene.json", "--through", "20,2,0;20,18,0", "--texture", "wave.texture.json"});
+  const Outcome exported = run({"export", "out/", "--to", "obj"});
+  const Outcome as_json = run({"export", "out", "--to", "obj", "--json"});
+  std::filesystem::current_path("out");
+  const Outcome from_inside = run({"export", ".", "--to", "stl"});
+  std::filesystem::current_path(before);
+  for (const Outcome* outcome : {&painted, &into, &exported, &as_json, &from_inside}) {
+    EXPECT_EQ(outcome->code, 0) << outcome->err;
+    EXPECT_THAT(outcome->out + outcome->err, testing::Not(testing::HasSubstr(dir_.path().string())));
+  }
+  EXPECT_THAT(into.out, testing::HasSubstr("scene in out\n"));
+  EXPECT_THAT(exported.out, testing::HasSubstr("in out-obj\n"));
+  EXPECT_EQ(Json::parse(as_json.out).at("folder"), "out-obj");
+  EXPECT_TRUE(std::filesystem::exists(path("out-stl/textured.stl")));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
+    if (entry.is_regular_file())
+      EXPECT_THAT(content_of(entry.path().string()), testing::Not(testing::HasSubstr(dir_.path().string())))
+          << entry.path();
+  }
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::rename(path("out"), path("elsewhere/moved"));
+  EXPECT_EQ(run({"export", path("elsewhere/moved"), "--to", "gltf"}).code, 0);
+}
+
 }  // namespace
 }  // namespace asperity::cli
