@@ -12,6 +12,7 @@
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/scene/export_scene.h"
+#include "asperity/session/check_exportable.h"
 #include "asperity/session/export_files.h"
 #include "asperity/session/export_heights.h"
 #include "asperity/session/our_folder.h"
@@ -71,13 +72,15 @@ class ExportCommand : public Command {
     ExportResult heights;
     if (heights_as) heights = export_heights(source_, *heights_as, {.spacing_m = spacing_m_}, observer);
     const ExportResult result =
-        name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_))
+        name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_)) ||
+                (!heights.files.empty() && holds_no_texture(source_))
             ? std::move(heights)
             : with_heights(scene_files(static_cast<ExportFormat>(name - kExportFormatNames.begin()), observer),
                            std::move(heights));
     if (result.files.empty()) {
-      throw Error(printable(source_, 200) + ": holds neither a profile.csv nor an areal map" +
-                  (result.problems.empty() ? "" : "; " + result.problems.front().message));
+      check_exportable(source_, read_export_source(source_, observer), format_);
+      throw Error(printable(source_, 200) + ": " +
+                  (result.problems.empty() ? "an areal map has too few points" : result.problems.front().message));
     }
     reads("");
     observer.update("writing", 1.0);
@@ -113,6 +116,7 @@ class ExportCommand : public Command {
         throw UsageError("--mesh-unit: the scene says what its unit is");
       scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     }
+    check_exportable(source_, scene, format_);
     observer.update("exporting", 0.0);
     ExportResult out = export_scene(scene, format, config_);
     add_material_images(source_, scene, format, out);
@@ -129,6 +133,10 @@ class ExportCommand : public Command {
       return (source / ".." / (whole.filename().string() + "-" + format)).lexically_normal();
     }
     return source.parent_path() / (name.string() + "-" + format);
+  }
+
+  static bool holds_no_texture(const fs::path& source) {
+    return fs::is_directory(source) && !fs::exists(source / "scene.json") && !fs::exists(source / "texture.json");
   }
 
   static ExportResult with_heights(ExportResult files, ExportResult heights) {

@@ -202,5 +202,25 @@ TEST_F(PaintCommands, PathsAreThoseThatWereGiven) {
   EXPECT_EQ(run({"export", path("elsewhere/moved"), "--to", "gltf"}).code, 0);
 }
 
+TEST_F(PaintCommands, AnExportNamesWhatThereIsAndWhatItCanBecome) {
+  std::filesystem::create_directory(path("result"));
+  write_text(path("result/texture.json"), kTexture);
+  write_text(path("result/profile.csv"), "s_m,height_m\n0,0\n0.001,1e-6\n0.002,0\n");
+  const Outcome stl = run({"export", path("result"), "--to", "stl"});
+  EXPECT_EQ(stl.code, 1);
+  EXPECT_THAT(stl.err, testing::HasSubstr("result: stl needs a mesh, and there is none, only texture.json (fourier1d) "
+                                          "and profile.csv. It can be exported to png, wav, ahap, haps, hjif, x3p, "
+                                          "sdf, sdf-binary, gsf"));
+  EXPECT_FALSE(std::filesystem::exists(path("result-stl")));
+  const Outcome png = run({"export", path("plane.obj"), "--to", "png"});
+  EXPECT_EQ(png.code, 1);
+  EXPECT_THAT(png.err, testing::HasSubstr("plane.obj: png needs a texture, and there is none, only a mesh "
+                                          "(plane.obj). It can be exported to obj, gltf, usda, stl"));
+  const Outcome sdf = run({"export", path("wave.texture.json"), "--to", "sdf"});
+  EXPECT_EQ(sdf.code, 1);
+  EXPECT_THAT(sdf.err, testing::HasSubstr("sdf needs a profile.csv or an areal map, and there is none, only "
+                                          "wave.texture.json (fourier1d)"));
+}
+
 }  // namespace
 }  // namespace asperity::cli

@@ -189,7 +189,7 @@ ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportC
     }
   }
   if (out.files.empty()) {
-    throw Error("export: there is nothing that could be written as " +
+    throw Error("export: the scene holds nothing that can be written as " +
                 std::string(kExportFormatNames[static_cast<std::size_t>(format)]));
   }
   return out;
