@@ -118,7 +118,7 @@ class ExportCommand : public Command {
     }
     check_exportable(source_, scene, format_);
     observer.update("exporting", 0.0);
-    ExportResult out = export_scene(scene, format, config_);
+    ExportResult out = export_scene(scene, format, config_, observer);
     add_material_images(source_, scene, format, out);
     return out;
   }

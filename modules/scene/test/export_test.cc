@@ -261,6 +261,27 @@ TEST(ExportScene, SoundsAtTheSpeedOverThePitch) {
   EXPECT_NEAR(highest, 0.9 * 32767, 1.0);
 }
 
+TEST(ExportScene, ReportsHowFarItIsAndCanBeStopped) {
+  Scene scene = painted_scene();
+  scene.objects[0].textures.push_back({2, "other.texture.json", cosine()});
+  for (const ExportFormat format : {ExportFormat::kGltf, ExportFormat::kObj, ExportFormat::kUsda, ExportFormat::kPng}) {
+    std::vector<double> fractions;
+    export_scene(scene, format, {},
+                 {[&](std::string_view stage, double fraction) {
+                    EXPECT_EQ(stage, "exporting");
+                    fractions.push_back(fraction);
+                  },
+                  {}});
+    EXPECT_GT(fractions.size(), 100U);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions.front(), 0.0);
+    EXPECT_GT(fractions.back(), 0.9);
+    EXPECT_LE(fractions.back(), 1.0);
+    int asked = 0;
+    EXPECT_THROW(export_scene(scene, format, {}, {{}, [&] { return ++asked > 20; }}), Cancelled);
+  }
+}
+
 TEST(ExportScene, WithNothingToWriteIsAnError) {
   Scene scene = painted_scene();
   scene.objects[0].textures.clear();
