@@ -12,7 +12,9 @@
 
 #include "asperity/base/folder_content.h"
 #include "asperity/base/in_background.h"
+#include "asperity/base/interval_text.h"
 #include "asperity/base/output.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/process_result.h"
@@ -45,6 +47,8 @@ std::string verdict_lines(const Verdicts& verdicts) {
 std::string with_error(double value, double error, int decimals) {
   if (!std::isfinite(value)) return "not determined";
   if (!std::isfinite(error)) return fmt::format("{:.{}f}", value, decimals);
+  // Of a value that is much better known than that, more decimals: "0.05 ± 0.0" states nothing.
+  if (error > 0.0 && error < 0.5 * std::pow(10.0, -decimals)) return interval_text(value, error, 1);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 
@@ -96,8 +100,9 @@ std::string result_summary(const ProcessResult& result) {
                                 with_error(1e3 * result.coverage.length_m, length_stderr_mm, 2), shape,
                                 100.0 * result.coverage.covered, result.speed.mean_mps * 1e3);
   if (std::isfinite(result.noise.snr)) {
-    out += fmt::format("  noise       {:.2g} ± {:.1g} µm RMS in the texture, signal to noise {:.3g} (power)\n",
-                       1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, result.noise.snr);
+    out += fmt::format("  noise       {} µm RMS in the texture, signal to noise {} (power)\n",
+                       interval_text(1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, 1, 2),
+                       rounded_text(result.noise.snr));
   }
   out += repeated_lines(result);
   if (result.roughness) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "asperity/base/error.h"
+#include "asperity/base/interval_text.h"
 #include "asperity/base/text.h"
 #include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/stroke_file.h"
@@ -86,7 +87,7 @@ std::string stroke_text(const Stroke& stroke) {
   out += fmt::format("vibration   {:.3g} m/s² RMS above 40 Hz in {:.3g} s", e.active_mps2, e.active_s);
   if (std::isfinite(e.power_ratio)) out += fmt::format(", {:.3g} m/s² in quiet", e.quiet_mps2);
   if (std::isfinite(e.speed_exponent))
-    out += fmt::format(", its power as the speed to the {:.2g} ± {:.2g}", e.speed_exponent, e.speed_exponent_sigma);
+    out += ", its power as the speed to the " + interval_text(e.speed_exponent, e.speed_exponent_sigma);
   out += "\n";
   for (const std::string& text : stroke_unknowns(stroke)) out += "not determined: " + text + "\n";
   for (const Problem& problem : stroke.problems) out += "note        " + problem.message + "\n";
