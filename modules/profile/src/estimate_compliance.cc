@@ -67,8 +67,9 @@ void estimate_coefficient(const ComplianceWindows& windows, const ComplianceConf
 std::string missing_windows(const ComplianceWindows& windows, const ComplianceConfig& config) {
   if (static_cast<double>(windows.lost) > kMostLost * static_cast<double>(windows.moving)) {
     return fmt::format(
-        "not determined: the tip left the surface in {:.0f} % of the strokes: press harder or move slower",
-        100.0 * static_cast<double>(windows.lost) / static_cast<double>(windows.moving));
+        "not determined: in {:.0f} % of the sections of {:g} mm the force falls below a quarter of its mean, as where "
+        "the tip leaves the surface; press harder or move slower",
+        100.0 * static_cast<double>(windows.lost) / static_cast<double>(windows.moving), config.window_mm);
   }
   return fmt::format("not determined: the strokes have {} sections of {:g} mm with force, {} are needed",
                      windows.force_N.size(), config.window_mm, config.min_windows);
