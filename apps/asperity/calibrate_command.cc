@@ -46,7 +46,7 @@ Calibration calibration_before(const fs::path& file) {
 CalibrateCommand::CalibrateCommand(Parser& calibrate, const std::string& kind, const std::string& description)
     : Command(calibrate, kind, description), kind_(kind) {
   parser()
-      .add_option("-o,--output", output_, "Where to put the values; what other kinds have calibrated is kept")
+      .add_option("-o,--output", output_, "File to write the values to; the values of other kinds in it are kept")
       ->type_name("calibration.json");
 }
 

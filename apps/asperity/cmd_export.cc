@@ -39,12 +39,17 @@ class ExportCommand : public Command {
             "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
-    parser().add_option("--speed", speed_, "Of the stroke, for wav, ahap, haps and forces in time")->type_name("SPEED");
-    parser().add_option("--rate", rate_, "Samples a second of the stroke, for wav")->type_name("FREQUENCY");
+    parser()
+        .add_option("--speed", speed_, "Speed of the stroke, for wav, ahap, haps and forces in time")
+        ->type_name("SPEED");
+    parser().add_option("--rate", rate_, "Samples per second of the stroke, for wav")->type_name("FREQUENCY");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights of a file without positions")
         ->type_name("LENGTH");
-    parser().add_option("--mesh-unit", mesh_unit_, "Length of the unit of a mesh given alone")->type_name("LENGTH");
+    parser()
+        .add_option("--mesh-unit", mesh_unit_,
+                    "Unit of a mesh that is given without a scene: m, mm or a length such as 0.06m")
+        ->type_name("LENGTH");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
@@ -113,7 +118,7 @@ class ExportCommand : public Command {
     Scene scene = read_export_source(source_, observer);
     if (!mesh_unit_.empty()) {
       if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
-        throw UsageError("--mesh-unit: the scene says what its unit is");
+        throw UsageError("--mesh-unit: the scene states its own unit; leave the option out");
       scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     }
     check_exportable(source_, scene, format_);

@@ -58,7 +58,8 @@ std::string merge_summary(const ProcessResult& result, const MergeConfig& config
 class MergeCommand : public Command {
  public:
   explicit MergeCommand(Parser& root)
-      : Command(root, "merge", "Several strokes over one line as one profile, aligned and averaged by their noise") {
+      : Command(root, "merge",
+                "Merge several strokes over one line to one profile, aligned and averaged by their noise") {
     require(parser().add_option("PASS", inputs_,
                                 "Two or more recordings, or folders that process has written with "
                                 "--set profile.remove_noise=false"));

@@ -43,17 +43,18 @@ class PaintCommand : public Command {
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
     Option* mesh =
         parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .off .gltf .glb) or a scene.json to paint on");
-    Option* into = parser()
-                       .add_option("--into", into_,
-                                   "Scene of an earlier registration or painting to paint into; all else in it stays")
-                       ->type_name("scene.json")
-                       ->excludes(mesh);
+    Option* into =
+        parser()
+            .add_option("--into", into_,
+                        "Scene of an earlier registration or painting to paint into; its other content is kept")
+            ->type_name("scene.json")
+            ->excludes(mesh);
     require(parser().add_option(
                 "--through", through_,
                 "Points x,y,z;x,y,z;… near the surface, in the mesh's frame: in the mesh's unit if --mesh-unit is "
                 "given, else in metres"))
         ->type_name("POINTS");
-    require(parser().add_option("--texture", texture_, "What to paint with, a *.texture.json"))->type_name("FILE");
+    require(parser().add_option("--texture", texture_, "Texture to paint with, a *.texture.json"))->type_name("FILE");
     parser()
         .add_option("-o,--output", output_, "Folder of the scene (required without --into)")
         ->type_name("OUT")
@@ -62,11 +63,11 @@ class PaintCommand : public Command {
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
-    parser().add_option("--rings", rings_, "Rings of triangles about those under the path")->type_name("N");
+    parser().add_option("--rings", rings_, "Number of rings of triangles around those under the path")->type_name("N");
     parser()
-        .add_option("--width", width_, "Of the stroke: triangles this near to its middle line, instead of rings")
+        .add_option("--width", width_, "Width of the stroke around its middle line, instead of rings")
         ->type_name("LENGTH");
-    parser().add_option("--index", index_, "Of the texture; default: the next free one")->type_name("N");
+    parser().add_option("--index", index_, "Index of the texture; default: the next free one")->type_name("N");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }
@@ -79,9 +80,9 @@ class PaintCommand : public Command {
   int run(const Observer& observer) override {
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::vector<Eigen::Vector3d> picks = points_option_m("--through", through_, unit_m);
-    if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
-    if (mesh_.empty() && into_.empty()) throw UsageError("MESH is missing, or --into");
-    if (output_.empty() && into_.empty()) throw UsageError("-o is missing: the folder of the scene, or --into");
+    if (picks.size() < 2) throw UsageError("--through needs at least two points x,y,z, separated by ;");
+    if (mesh_.empty() && into_.empty()) throw UsageError("MESH or --into is missing");
+    if (output_.empty() && into_.empty()) throw UsageError("-o (the folder of the scene) or --into is missing");
     std::optional<OutputFolder> folder;
     if (into_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
@@ -125,7 +126,7 @@ class PaintCommand : public Command {
       if (into_.empty()) {
         out.scene = read_painted_scene(mesh_, unit, observer);
       } else {
-        if (fs::path(into_).extension() != ".json") throw UsageError("--into: a scene's file is called *.json");
+        if (fs::path(into_).extension() != ".json") throw UsageError("--into: the file of a scene ends in .json");
         out = read_earlier_scene(into_, observer);
         if (unit) set_mesh_unit(out.scene, into_, *unit);
       }

@@ -62,8 +62,8 @@ std::string friction_lines(const FrictionEstimate& f) {
     out = "  friction    " + f.verdict + "\n";
   }
   if (f.stribeck) {
-    out += fmt::format("              {:.3f} at rest, {:.3f} sliding, Stribeck speed {:.1f} mm/s\n",
-                       f.stribeck->at_rest, f.stribeck->sliding, 1e3 * f.stribeck->speed_mps);
+    out += fmt::format("              {:.3f} static, {:.3f} sliding, Stribeck speed {:.1f} mm/s\n", f.stribeck->at_rest,
+                       f.stribeck->sliding, 1e3 * f.stribeck->speed_mps);
   }
   if (f.sticks > 0) {
     out += fmt::format("              stuck {} times, {:.1f} % of the contact", f.sticks, 100.0 * f.stuck_share);
@@ -116,9 +116,8 @@ std::string result_summary(const ProcessResult& result) {
                          std::isfinite(r.RSm_m) ? with_error(1e3 * r.RSm_m, 1e3 * r.standard_error.RSm_m, 3) + " mm"
                                                 : std::string("not determined"));
     } else {
-      out += fmt::format(
-          "  roughness   not determined: the texture does not stand out of its noise; Rq is at most {:.2g} µm\n",
-          1e6 * result.noise.at_most_m);
+      out += fmt::format("  roughness   not determined: the texture is not above its noise; Rq is at most {:.2g} µm\n",
+                         1e6 * result.noise.at_most_m);
     }
   }
   if (result.periodicity.periodic) {
@@ -181,12 +180,12 @@ std::string folder_name(const std::string& path) {
 class ProcessCommand : public Command {
  public:
   explicit ProcessCommand(Parser& root)
-      : Command(root, "process", "From recordings to surface profiles, roughness and haptic textures") {
+      : Command(root, "process", "Measure surface profiles, roughness and haptic textures from recordings") {
     require(parser().add_option("REC", recordings_,
                                 "Recordings; several give OUT/NAME/ each, and several segments with gaps between them "
                                 "OUT/SEGMENT/ or OUT/NAME/SEGMENT/ each"));
     require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
-    parser().add_option("--segment", segment_, "Only this segment of each recording")->type_name("NAME");
+    parser().add_option("--segment", segment_, "Process only this segment of each recording")->type_name("NAME");
     parser()
         .add_option("--method", method_, "The first is the default: " + ProcessMethods::describe())
         ->type_name("NAME");
@@ -206,7 +205,7 @@ class ProcessCommand : public Command {
   int run(const Observer& observer) override {
     std::set<std::string> names;
     for (const std::string& recording : recordings_) {
-      if (recording.empty()) throw UsageError("REC: a recording's folder has no name");
+      if (recording.empty()) throw UsageError("REC: the name of a recording's folder is empty");
       if (!names.insert(folder_name(recording)).second) {
         throw UsageError("two recordings are called '" + printable(folder_name(recording)) + "'");
       }

@@ -27,7 +27,7 @@ std::string value_text(const Json& value) { return value.is_string() ? value.get
 
 class TextureInfoCommand : public Command {
  public:
-  explicit TextureInfoCommand(Parser& root) : Command(root, "info", "What a texture is and how rough") {
+  explicit TextureInfoCommand(Parser& root) : Command(root, "info", "Describe a texture and its roughness") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
   }
 
