@@ -136,8 +136,8 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
   // On a soft surface the texture may stand out where the force is light only.
   if (!(percentile(windows.power, 90.0) > 3.0 * mean(windows.noise))) {
     out.verdict = fmt::format(
-        "not determined: no waves of {:.2g} to {:.2g} mm are above the noise at rest: move faster, or on a rougher "
-        "area",
+        "not determined: no waves of {:.2g} to {:.2g} mm are above the noise of the stationary probe; move faster, or "
+        "on a rougher area",
         1.0 / config.max_cycles_per_mm, 1.0 / config.min_cycles_per_mm);
     return out;
   }

@@ -164,7 +164,7 @@ TEST(EstimateCompliance, SaysWhatIsMissing) {
   EXPECT_THAT(c.verdict, HasSubstr("8 are needed"));
 
   c = estimate(scan({.noise_mps2 = 1.0, .fall = [](double) { return 0.0; }}));
-  EXPECT_THAT(c.verdict, HasSubstr("above the noise at rest"));
+  EXPECT_THAT(c.verdict, HasSubstr("above the noise of the stationary probe"));
 
   TipMotion motion = scan({});
   for (std::size_t i = 0; i < motion.size(); ++i)
