@@ -141,7 +141,9 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   std::error_code ignored;
   const fs::file_status status = fs::status(target_, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(target_.string() + ": cannot be written: it exists and is no file that could be replaced");
+    throw Error(
+        target_.string() +
+        ": cannot be written: it exists and is not a regular file, so that it cannot be replaced; choose another name");
   }
   temporary_ = make_beside(target_, "written", [this](const fs::path& name) {
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

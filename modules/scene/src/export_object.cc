@@ -65,7 +65,7 @@ void name_what_is_lost(const std::string& stem, const Scene& scene, const SceneO
     out.problems.push_back({"not_exported", printable(stem) + ": " + what, 1});
   };
   if (!object.material.vertices.empty())
-    lost("the material map: stiffness and friction are those of the textures or the scene, not of the places");
+    lost("the material map: stiffness and friction are those of the textures or the scene, not of the positions");
   if (!object.covered.empty()) lost("textures below others");
   bool sticks = scene.static_friction_ratio.has_value();
   bool yields = false;

@@ -103,9 +103,9 @@ std::string measured_note(const TextureModel& model, double length_m, double wid
       for (std::size_t c = 2; c + 2 < g.columns; ++c) gaps += areal->supported[r * g.columns + c] == 0 ? 1 : 0;
     if (gaps > 0) out += std::to_string(gaps) + " of its points have no height near and were filled smoothly. ";
     const bool beyond = length_m > to_x_m + g.spacing_x_m || width_m > to_y_m + g.spacing_y_m;
-    return out + (beyond ? "What lies beyond was continued (border: " +
+    return out + (beyond ? "The surface beyond was continued (border: " +
                                std::string(kBorderNames.at(static_cast<std::size_t>(g.border))) + "), not measured."
-                         : "Nothing lies beyond.");
+                         : "The file ends there.");
   }
   if (const auto* surface = std::get_if<Fourier2d>(&model)) {
     if (surface->kind == Fourier2dKind::kIsotropic)

@@ -229,7 +229,7 @@ TEST(ExportScene, X3pSaysWhatWasMeasured) {
   auto members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);
   EXPECT_THAT(members.at("main.xml"),
               testing::HasSubstr("points 0.1 mm apart. Measured: x 0 to 3 mm, y 0 to 2 mm from the first point of this "
-                                 "file. What lies beyond was continued (border: mirror), not measured."));
+                                 "file. The surface beyond was continued (border: mirror), not measured."));
   const Fourier1d profile{10.0, {0.0, 0.0, 0.0, 1e-4}, {0.0, 0.0, 0.0, 0.0}, 0.0};
   scene.objects[0].textures[0].texture.model = fit_fourier2d(profile, profile).texture;
   members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);

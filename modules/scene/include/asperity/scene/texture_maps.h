@@ -19,7 +19,7 @@ struct TextureMapsConfig {
   template <class V>
   void visit(V& v) {
     v.field("pixels_per_mm", pixels_per_mm, "of images made from other models", {0.01, 1e4});
-    v.field("fewest_pixels", fewest_pixels, "a side, whatever the length", {4, 8192});
+    v.field("fewest_pixels", fewest_pixels, "a side, for any length", {4, 8192});
     v.field("seam_mm", seam_mm, "over which a tile's end passes over into its start", {0.0, 1e6});
   }
 };
