@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/read_path.h"
