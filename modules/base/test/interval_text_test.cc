@@ -76,8 +76,9 @@ TEST(IntervalText, IsTheNumberToHalfOfItsLastDigit) {
     EXPECT_NEAR(std::stod(text.value), value, 5.01 * step + 1e-14 * std::abs(value));
     const auto point = text.error.find('.');
     EXPECT_EQ(text.value.find('.') == std::string::npos, point == std::string::npos);
-    if (point != std::string::npos)
+    if (point != std::string::npos) {
       EXPECT_EQ(text.value.size() - text.value.find('.'), text.error.size() - point) << text.value;
+    }
   }
 }
 
