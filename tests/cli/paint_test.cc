@@ -193,9 +193,9 @@ TEST_F(PaintCommands, PathsAreThoseThatWereGiven) {
   EXPECT_EQ(Json::parse(as_json.out).at("folder"), "out-obj");
   EXPECT_TRUE(std::filesystem::exists(path("out-stl/textured.stl")));
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
-    if (entry.is_regular_file())
-      EXPECT_THAT(content_of(entry.path().string()), testing::Not(testing::HasSubstr(dir_.path().string())))
-          << entry.path();
+    if (!entry.is_regular_file()) continue;
+    EXPECT_THAT(content_of(entry.path().string()), testing::Not(testing::HasSubstr(dir_.path().string())))
+        << entry.path().string();
   }
   std::filesystem::create_directory(path("elsewhere"));
   std::filesystem::rename(path("out"), path("elsewhere/moved"));
