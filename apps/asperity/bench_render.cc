@@ -134,7 +134,7 @@ void time_rendering(const Scene& scene, double tip_radius_m, Json& out) {
     touching += output.contact.found() ? 1 : 0;
   });
   const double whole_s = 1e-9 * nanoseconds(Clock::now() - begin);
-  if (touching == 0 || !(sum_N > 0.0)) throw Error("bench: the tip never touched the mesh");
+  if (touching == 0 || !(sum_N > 0.0)) throw Error("bench: the tip never touched the mesh; check --mesh-unit");
   std::vector<double> single_us;
   single_us.reserve(walk.size());
   run([&](ServoState& state, const DeviceState& device) {

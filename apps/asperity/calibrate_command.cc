@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "asperity/base/interval_text.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
@@ -45,7 +46,7 @@ Calibration calibration_before(const fs::path& file) {
 CalibrateCommand::CalibrateCommand(Parser& calibrate, const std::string& kind, const std::string& description)
     : Command(calibrate, kind, description), kind_(kind) {
   parser()
-      .add_option("-o,--output", output_, "Where to put the values; what other kinds have calibrated is kept")
+      .add_option("-o,--output", output_, "File to write the values to; the values of other kinds in it are kept")
       ->type_name("calibration.json");
 }
 
@@ -106,8 +107,9 @@ std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
   for (const CalibratedValue& row : outcome.table) width = std::max(width, row.name.size());
   std::string out;
   for (const CalibratedValue& row : outcome.table) {
-    const std::string error = std::isfinite(row.standard_error) ? fmt::format("± {:<10.3g}", row.standard_error) : "";
-    out += fmt::format("{:<{}} {:>13.7g} {:<12} {}\n", row.name, width, row.value, error, row.unit);
+    const IntervalText shown = interval_parts(row.value, row.standard_error, 3, 7);
+    out += fmt::format("{:<{}} {:>13} {:<14} {}\n", row.name, width, shown.value,
+                       shown.error.empty() ? "" : "± " + shown.error, row.unit);
   }
   for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
   const std::string_view word = verdict_word(outcome.verdict.verdicts);

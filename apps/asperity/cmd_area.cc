@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangle_mesh.h"
@@ -24,7 +25,7 @@ class AreaCommand : public Command {
       : Command(root, "area", "Make one areal texture of many registered scans over a patch") {
     require(parser().add_option("REGISTERED", folder_, "A folder that `register` wrote, with several scans"));
     parser()
-        .add_option("--leave-out", leave_out_, "A scan that only holds the pose of the rest; may be given again")
+        .add_option("--leave-out", leave_out_, "A scan that is used for the pose only; may be repeated")
         ->one_value_each()
         ->type_name("SCAN");
     require(parser().add_option("-o,--output", output_, "Folder of the scene with the area"))->type_name("OUT");
@@ -36,8 +37,8 @@ class AreaCommand : public Command {
     // What was measured of the scans is in there, and OUT is replaced as a whole.
     std::error_code unknown;
     if (fs::equivalent(folder_, output_, unknown))
-      throw UsageError("-o: " + printable(output_, 200) + " is REGISTERED itself; take another folder");
-    OutputFolder folder(output_, is_our_folder);
+      throw UsageError("-o: " + printable(output_, 200) + " is REGISTERED itself; choose another output folder");
+    OutputFolder folder(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(folder_);
     const AreaInput input = read_area_input(folder_, observer, leave_out_);

@@ -40,7 +40,8 @@ class BatchFolder {
     if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
       throw Error(printable(folder_.string(), 200) + ": is not a folder");
     if (!fs::exists(marker, error) && holds_others(of_scheduler ? scans : std::vector<BatchScan>{}))
-      throw Error(printable(folder_.string(), 200) + ": holds other files than a batch's; nothing was written");
+      throw Error(printable(folder_.string(), 200) +
+                  ": holds files that are not of a batch; nothing was written. Choose another output folder");
     fs::create_directories(folder_);
     if (!fs::exists(marker, error)) {
       Json mark{{"format", "asperity-batch"}, {"version", 1}, {"asperity", kVersion}};
@@ -50,7 +51,7 @@ class BatchFolder {
     const int lock = of_scheduler ? LOCK_SH : LOCK_EX;
     if (file_ >= 0 && ::flock(file_, lock | LOCK_NB) == 0) return;
     if (file_ >= 0) ::close(file_);
-    throw Error(printable(folder_.string(), 200) + ": another batch is at work in it");
+    throw Error(printable(folder_.string(), 200) + ": another batch is running in this folder");
   }
   ~BatchFolder() { ::close(file_); }
   BatchFolder(const BatchFolder&) = delete;
@@ -104,15 +105,15 @@ class BatchCommand : public Command {
     require(parser().add_option("PLAN", inputs_, "A plan, FILE.toml; or recordings, or patterns of their folders"));
     parser().add_option("-o,--output", output_, "Folder of the results, if the plan states none")->type_name("OUT");
     parser()
-        .add_option("-j,--jobs", jobs_, "How many at a time; one for each processor if not given")
+        .add_option("-j,--jobs", jobs_, "Number of scans at a time; default: one for each processor")
         ->in_range(0, 1024);
-    parser().add_option("--scan", scan_, "Only this one, without the summary")->type_name("NAME");
-    parser().add_flag("--summary", summary_, "Only the summary of what is there");
+    parser().add_option("--scan", scan_, "Process only this scan, without the summary")->type_name("NAME");
+    parser().add_flag("--summary", summary_, "Write the summary of the existing results only");
     parser()
-        .add_option("--emit", emit_, "Run nothing, write a workflow for this scheduler")
+        .add_option("--emit", emit_, "Write a workflow for this scheduler and run nothing")
         ->one_of({"snakemake", "make"});
     parser()
-        .add_option("--workflow", workflow_, "Folder of the workflow; 'workflow' beside the plan if not given")
+        .add_option("--workflow", workflow_, "Folder of the workflow; default: 'workflow' in the folder of the plan")
         ->type_name("DIR");
   }
 
@@ -172,7 +173,7 @@ class BatchCommand : public Command {
     bool valid = true;
     for (const StepRecord& step : outcome.record.steps) valid &= step.exit_code == 0;
     print_json(format_scan_record(outcome.record));
-    say(fmt::format("{}: {}\n", printable(scan.name, 200), valid ? "done" : "done, the result is invalid"));
+    say(fmt::format("{}: {}\n", printable(scan.name, 200), valid ? "done" : "done, but the result is invalid"));
     return valid ? kDone : kNotTrustworthy;
   }
 
@@ -245,7 +246,7 @@ class BatchCommand : public Command {
   }
 
   int emit(const std::vector<BatchScan>& scans) {
-    if (plan_file_.empty()) throw UsageError("--emit: a plan is needed, FILE.toml");
+    if (plan_file_.empty()) throw UsageError("--emit needs a plan, FILE.toml");
     const fs::path target = workflow_.empty() ? plan_.folder / "workflow" : fs::path(workflow_);
     const WorkflowInput input{
         plan_, plan_file_, output_, relative_to(plan_.folder, target), fs::read_symlink("/proc/self/exe").string(),

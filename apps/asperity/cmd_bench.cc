@@ -65,17 +65,18 @@ class BenchCommand : public Command {
         ->one_of({"closest-point", "register", "process", "render"});
     parser()
         .add_option("MESH,--mesh", mesh_,
-                    "The mesh, or for render a scene; else a generated one of some 70,000 triangles")
+                    "The mesh, or for render a scene; default: a generated mesh of some 70,000 triangles")
         ->type_name("FILE");
     parser()
-        .add_option("--mesh-unit", mesh_unit_, "The mesh file's unit: m, mm or a length such as 0.06m; m")
+        .add_option("--mesh-unit", mesh_unit_, "Unit of the mesh file: m (the default), mm or a length such as 0.06m")
         ->type_name("UNIT");
-    parser().add_option("--tip", tip_, "render: radius of the tip; a point")->type_name("LENGTH");
+    parser().add_option("--tip", tip_, "render: radius of the tip; default: a point")->type_name("LENGTH");
   }
 
   int run(const Observer& observer) override {
-    if (!tip_.empty() && what_ != "render") throw UsageError("--tip: only render has a tip");
-    if (what_ == "process" && !mesh_.empty()) throw UsageError("--mesh: process needs no mesh");
+    if (!tip_.empty() && what_ != "render") throw UsageError("--tip: only the benchmark render has a tip");
+    if (what_ == "process" && !mesh_.empty())
+      throw UsageError("--mesh: the benchmark process has no mesh; leave the option out");
     Json out;
     out["format"] = "asperity-bench";
     out["version"] = 1;
@@ -127,7 +128,7 @@ class BenchCommand : public Command {
       rounds_ns.push_back(1e9 * took_s / static_cast<double>(points.size()));
     }
     // The sum is used, so that the compiler cannot leave the queries out.
-    if (!(sum_m >= 0.0)) throw Error("bench: a query found nothing");
+    if (!(sum_m >= 0.0)) throw Error("bench: a closest-point query found no point");
     return median_of(rounds_ns);
   }
 

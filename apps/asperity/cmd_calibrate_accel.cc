@@ -115,7 +115,8 @@ class CalibrateAccelCommand : public CalibrateCommand {
     out.table.push_back({"residual", result.residual_counts, std::nan(""), "counts a pose"});
     out.table.push_back({"RMS of |a| − g", result.rms_mps2, std::nan(""),
                          fmt::format("m/s² over {} of {} poses", result.used, result.poses.size())});
-    if (!left_out.empty()) out.notes.push_back("left out, the others contradict them: the poses at " + left_out);
+    if (!left_out.empty())
+      out.notes.push_back("left out, because the others contradict them: the poses at " + left_out);
     out.verdict = result.verdict;
     std::optional<GyroscopeCalibration> gyroscope;
     if (recording) gyroscope = gyroscope_at_rest(*recording, result, out);
@@ -201,7 +202,8 @@ class CalibrateAccelCommand : public CalibrateCommand {
     }
     out.notes.push_back(fit.reason);
     if (fit.joined > 1) {
-      out.notes.push_back(fmt::format("neighbouring poses err alike: {} each were averaged", fit.joined));
+      out.notes.push_back(
+          fmt::format("the errors of neighbouring poses are correlated: {} poses each were averaged", fit.joined));
     }
     out.verdict = fit.verdict;
     out.store = [accelerometer = fit.accelerometer](Calibration& calibration) {

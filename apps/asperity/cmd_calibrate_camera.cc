@@ -76,7 +76,7 @@ class CalibrateCameraCommand : public CalibrateCommand {
   void apply_options() override {
     if (!size_.empty()) std::tie(board_.columns, board_.rows) = board_option(size_);
     if (!square_.empty()) board_.square_m = length_option_m("--square", square_);
-    if (charuco_ == marker_.empty()) throw UsageError("--charuco and --marker go together");
+    if (charuco_ == marker_.empty()) throw UsageError("--charuco and --marker need each other");
     if (!charuco_) return;
     board_.kind = BoardKind::kCharuco;
     board_.marker_m = length_option_m("--marker", marker_);

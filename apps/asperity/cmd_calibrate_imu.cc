@@ -19,10 +19,12 @@ class CalibrateImuCommand : public CalibrateCommand {
  public:
   explicit CalibrateImuCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "imu",
-                         "Where the accelerometer is on the probe, how it is turned, and the tracker's latency, from a "
+                         "Position and rotation of the accelerometer on the probe and the tracker's latency, from a "
                          "free motion in the air") {
-    require(parser().add_option("REC", folder_, "A recording in which the probe is moved and turned in the air"));
-    parser().add_option("--calibration", calibration_, "Instead of the recording's own")->type_name("calibration.json");
+    require(parser().add_option("REC", folder_, "A recording in which the probe is moved and rotated in the air"));
+    parser()
+        .add_option("--calibration", calibration_, "Used instead of the recording's own calibration")
+        ->type_name("calibration.json");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("calibration", config_); }

@@ -28,7 +28,9 @@ class CalibrateLatencyCommand : public CalibrateCommand {
   explicit CalibrateLatencyCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "latency", "The tracker's latency against the probe, from a recording of shaking") {
     require(parser().add_option("REC", folder_, "A recording in which the probe is shaken in front of the camera"));
-    parser().add_option("--calibration", calibration_, "Instead of the recording's own")->type_name("calibration.json");
+    parser()
+        .add_option("--calibration", calibration_, "Used instead of the recording's own calibration")
+        ->type_name("calibration.json");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("calibration", config_); }
@@ -74,17 +76,17 @@ class CalibrateLatencyCommand : public CalibrateCommand {
                  {"clock rate", kMicro * fit.clock_rate, kMicro * fit.clock_rate_error, "ppm"}};
     for (const Problem& problem : fit.problems) out.notes.push_back(problem.message);
     if (recording.calibration.probe_latency_s != 0.0) {
-      out.notes.push_back(
-          fmt::format("the probe's own latency of {:.2f} ms, which the calibration states, is taken off its times",
-                      kMilli * recording.calibration.probe_latency_s));
+      out.notes.push_back(fmt::format(
+          "the probe's own latency of {:.2f} ms, which the calibration states, was subtracted from its times",
+          kMilli * recording.calibration.probe_latency_s));
     }
     if (fit.rotation_solved) {
       const Eigen::Quaterniond& q = fit.R_marker_sensor;
       out.notes.push_back(
-          fmt::format("the sensor's rotation in the marker frame was solved for: ({:.5f}, {:.5f}, {:.5f}, {:.5f}), to "
-                      "{:.2g} rad{}",
+          fmt::format("the sensor's rotation in the marker frame was estimated too: ({:.5f}, {:.5f}, {:.5f}, {:.5f}), "
+                      "to {:.2g} rad{}",
                       q.w(), q.x(), q.y(), q.z(), fit.rotation_error_rad.maxCoeff(),
-                      fit.by_gyroscope ? "; it goes into the gyroscope's calibration" : ""));
+                      fit.by_gyroscope ? "; it is written to the gyroscope's calibration" : ""));
     }
     out.verdict = fit.verdict;
     const GyroscopeCalibration sensor = recording.calibration.gyroscope.value_or(GyroscopeCalibration{});

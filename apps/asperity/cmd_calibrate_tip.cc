@@ -14,7 +14,7 @@ namespace {
 class CalibrateTipCommand : public CalibrateCommand {
  public:
   explicit CalibrateTipCommand(Parser& calibrate)
-      : CalibrateCommand(calibrate, "tip", "Where the tip is on the probe, from swings with the tip in a dimple") {
+      : CalibrateCommand(calibrate, "tip", "Position of the tip on the probe, from swings with the tip in a dimple") {
     require(parser().add_option("REC", recording_, "The recording's folder"));
   }
 
@@ -51,9 +51,9 @@ class CalibrateTipCommand : public CalibrateCommand {
     out.table.push_back({"residual (RMS)", 1e3 * tip.rms_m, std::nan(""),
                          fmt::format("mm; the tracker's stated noise gives {:.3g} mm", 1e3 * tip.expected_rms_m)});
     out.notes.push_back(
-        fmt::format("{} of {} poses stand in the dimple; their errors count as those of {:.0f} independent ones",
+        fmt::format("{} of {} poses have the tip in the dimple; their errors count as those of {:.0f} independent ones",
                     tip.used, tip.poses, tip.independent_poses));
-    out.notes.emplace_back("the tip is the point that stays in place, the centre of its ball if it has one");
+    out.notes.emplace_back("the tip is the point that does not move: the centre of its ball if it has one");
     out.verdict = tip.verdict;
     out.store = [place_m = tip.tip_in_marker_m, sigma_m = tip.stderr_m](Calibration& calibration) {
       calibration.tip_in_marker_m = place_m;

@@ -56,9 +56,9 @@ Json json_of_rest(const StaticInterval& rest) {
 class CalibrateTrackerCommand : public CalibrateCommand {
  public:
   explicit CalibrateTrackerCommand(Parser& calibrate)
-      : CalibrateCommand(calibrate, "tracker", "The tracker's noise from recordings in which the probe rests") {
-    require(parser().add_option("REC", folders_, "Recordings; the rests in them are found"));
-    parser().add_option("--figure", figure_, "Histograms of the longest rest")->type_name("FILE.svg");
+      : CalibrateCommand(calibrate, "tracker", "The tracker's noise, from recordings with static intervals") {
+    require(parser().add_option("REC", folders_, "Recordings; their static intervals are found"));
+    parser().add_option("--figure", figure_, "Write histograms of the longest static interval")->type_name("FILE.svg");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("calibration", config_); }
@@ -111,8 +111,8 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     }
     for (const StaticInterval& rest : noise.rests) {
       std::string note =
-          fmt::format("rest of {:.1f} s, {} poses", static_cast<double>(rest.end_ns - rest.start_ns) * kNanosecond_s,
-                      rest.deviation_m.size());
+          fmt::format("static interval of {:.1f} s, {} poses",
+                      static_cast<double>(rest.end_ns - rest.start_ns) * kNanosecond_s, rest.deviation_m.size());
       if (rest.distance_m > 0.0) {
         note += fmt::format(", {:.0f} mm away, tilted by {:.0f} degrees", kMilli * rest.distance_m,
                             rest.tilt_rad * 180.0 / std::numbers::pi);

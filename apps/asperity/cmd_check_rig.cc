@@ -27,13 +27,13 @@ bool begins_as_rig_check(std::string_view begin) {
 class CheckRigCommand : public Command {
  public:
   explicit CheckRigCommand(Parser& root)
-      : Command(root, "check-rig", "Says by strokes over a known grating whether the scanner is right") {
+      : Command(root, "check-rig", "Check by strokes over a known grating that the scanner measures correctly") {
     parser().add_option("REC", recordings_, "Recordings of strokes over the grating; each segment is one stroke");
     parser().add_option("--pitch", pitch_, "Period of the grating, as measured; 2mm unless given")->type_name("LENGTH");
     parser().add_option("--depth", depth_, "From valley to peak, as measured; 0.2mm unless given")->type_name("LENGTH");
     parser().add_flag("--artefact", artefact_, "Write the grating itself, in mm, to print it");
     parser()
-        .add_option("-o,--output", output_, "Where to put the report, or with --artefact the grating")
+        .add_option("-o,--output", output_, "File of the report, or with --artefact of the grating")
         ->type_name("FILE");
   }
 
@@ -76,7 +76,7 @@ class CheckRigCommand : public Command {
     Recording recording = read_recording(path, {}, observer);
     const std::vector<Segment> pieces = separate_segments(recording);
     const std::string name = printable(path, 200);
-    if (pieces.size() + strokes.size() >= kMost) throw Error(name + ": more than 1000 strokes");
+    if (pieces.size() + strokes.size() >= kMost) throw Error(name + ": has more than 1000 strokes");
     if (pieces.empty()) {
       strokes.push_back({name, std::move(recording)});
       return;
@@ -88,7 +88,7 @@ class CheckRigCommand : public Command {
   }
 
   int write_artefact() {
-    if (!recordings_.empty()) throw UsageError("--artefact: takes no recording");
+    if (!recordings_.empty()) throw UsageError("--artefact needs no recording; leave REC out");
     if (output_.empty()) throw UsageError("--artefact: -o FILE.stl is required");
     std::error_code ignored;
     if (fs::exists(output_, ignored)) throw Error(printable(output_, 200) + ": exists; nothing was changed");

@@ -100,9 +100,8 @@ class DemoCommand : public Command {
  public:
   explicit DemoCommand(Parser& root)
       : Command(root, "demo",
-                "Simulate scans of two surfaces and of a mesh, process and register them, feel them, print measured "
-                "against "
-                "true") {
+                "Simulate scans of two surfaces and of a mesh, process, register and render them, and compare with the "
+                "truth") {
     parser().add_flag("--full", full_, "All five surfaces, and the scanner: calibrated, live and end to end");
     require(parser().add_option("-o,--output", output_, "Folder of the recordings and results"))->type_name("DIR");
   }
@@ -140,7 +139,7 @@ class DemoCommand : public Command {
       }
     }
     if (!protoboard || !protoboard->texture)
-      throw Error("demo: these settings leave the protoboard without a texture to paint with");
+      throw Error("demo: with these settings the protoboard has no texture to paint with");
     const MeshDemo mesh = demonstrate_mesh(folder.path(), config_, *protoboard->texture, observer);
     out["mesh"] = mesh.json;
     text += mesh.text;
@@ -164,12 +163,11 @@ class DemoCommand : public Command {
     commit_output(folder, output_);
     print_json(json);
     const std::string where = printable(output_, 200);
-    say(text + fmt::format(
-                   "\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, texture.json, "
-                   "result.json, trajectory.csv of each; of the pebble also the textured mesh\n{0}/painted/      the "
-                   "pebble with both textures\n{0}/felt/         the plate, the log of the stroke and a picture of its "
-                   "force\n",
-                   where));
+    say(text + fmt::format("\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, "
+                           "texture.json, result.json, trajectory.csv of each; of the pebble also the textured "
+                           "mesh\n{0}/painted/      the pebble with both textures\n{0}/felt/         the rendered "
+                           "plate, the log of the stroke and a picture of its force\n",
+                           where));
     return trustworthy ? kDone : kNotTrustworthy;
   }
 

@@ -6,11 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/scene/export_scene.h"
+#include "asperity/session/check_exportable.h"
 #include "asperity/session/export_files.h"
 #include "asperity/session/export_heights.h"
 #include "asperity/session/our_folder.h"
@@ -37,12 +39,17 @@ class ExportCommand : public Command {
             "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
-    parser().add_option("--speed", speed_, "Of the stroke, for wav, ahap, haps and forces in time")->type_name("SPEED");
-    parser().add_option("--rate", rate_, "Samples a second of the stroke, for wav")->type_name("FREQUENCY");
+    parser()
+        .add_option("--speed", speed_, "Speed of the stroke, for wav, ahap, haps and forces in time")
+        ->type_name("SPEED");
+    parser().add_option("--rate", rate_, "Samples per second of the stroke, for wav")->type_name("FREQUENCY");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights of a file without positions")
         ->type_name("LENGTH");
-    parser().add_option("--mesh-unit", mesh_unit_, "Length of the unit of a mesh given alone")->type_name("LENGTH");
+    parser()
+        .add_option("--mesh-unit", mesh_unit_,
+                    "Unit of a mesh that is given without a scene: m, mm or a length such as 0.06m")
+        ->type_name("LENGTH");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
@@ -62,23 +69,23 @@ class ExportCommand : public Command {
     }
     fs::path target = output_;
     if (target.empty()) {
-      fs::path source = fs::absolute(source_).lexically_normal();
-      if (!source.has_filename()) source = source.parent_path();
-      target = source.parent_path() / (source.filename().string() + "-" + format_);
+      target = beside(source_, format_);
     }
-    OutputFolder folder(target, is_our_folder);
+    OutputFolder folder(target, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(source_);
     ExportResult heights;
     if (heights_as) heights = export_heights(source_, *heights_as, {.spacing_m = spacing_m_}, observer);
     const ExportResult result =
-        name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_))
+        name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_)) ||
+                (!heights.files.empty() && holds_no_texture(source_))
             ? std::move(heights)
             : with_heights(scene_files(static_cast<ExportFormat>(name - kExportFormatNames.begin()), observer),
                            std::move(heights));
     if (result.files.empty()) {
-      throw Error(printable(source_, 200) + ": holds neither a profile.csv nor an areal map" +
-                  (result.problems.empty() ? "" : "; " + result.problems.front().message));
+      check_exportable(source_, read_export_source(source_, observer), format_);
+      throw Error(printable(source_, 200) + ": " +
+                  (result.problems.empty() ? "an areal map has too few points" : result.problems.front().message));
     }
     reads("");
     observer.update("writing", 1.0);
@@ -111,13 +118,30 @@ class ExportCommand : public Command {
     Scene scene = read_export_source(source_, observer);
     if (!mesh_unit_.empty()) {
       if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
-        throw UsageError("--mesh-unit: the scene says what its unit is");
+        throw UsageError("--mesh-unit: the scene states its own unit; leave the option out");
       scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     }
+    check_exportable(source_, scene, format_);
     observer.update("exporting", 0.0);
-    ExportResult out = export_scene(scene, format, config_);
+    ExportResult out = export_scene(scene, format, config_, observer);
     add_material_images(source_, scene, format, out);
     return out;
+  }
+
+  // SOURCE-FORMAT beside the source, relative if that is given so; "." and ".." have a name from above alone.
+  static fs::path beside(const fs::path& given, const std::string& format) {
+    fs::path source = given.lexically_normal();
+    if (!source.has_filename()) source = source.parent_path();
+    const fs::path name = source.filename();
+    if (name.empty() || name == "." || name == "..") {
+      const fs::path whole = fs::weakly_canonical(fs::absolute(given));
+      return (source / ".." / (whole.filename().string() + "-" + format)).lexically_normal();
+    }
+    return source.parent_path() / (name.string() + "-" + format);
+  }
+
+  static bool holds_no_texture(const fs::path& source) {
+    return fs::is_directory(source) && !fs::exists(source / "scene.json") && !fs::exists(source / "texture.json");
   }
 
   static ExportResult with_heights(ExportResult files, ExportResult heights) {

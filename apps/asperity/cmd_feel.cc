@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -58,14 +59,16 @@ std::string device_list(std::string_view last, const std::map<std::string_view, 
 class FeelCommand : public Command {
  public:
   explicit FeelCommand(Parser& root)
-      : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
+      : Command(root, "feel", "Render a scene with a haptic device, or log the forces of a modelled hand") {
     parser().add_option("SCENE", options_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
         .add_option("--height-maps", options_.height_maps,
-                    "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
+                    "Replaces SCENE: images side by side on a plane, a.png,b.png,…")
         ->type_name("FILES");
-    parser().add_option("--tile", options_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
-    parser().add_option("--height-range", options_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
+    parser().add_option("--tile", options_.tile, "Side of a height map's tile; default: 10mm")->type_name("LENGTH");
+    parser()
+        .add_option("--height-range", options_.height_range, "Height from black to white; default: 2.5mm")
+        ->type_name("LENGTH");
     parser()
         .add_option(
             "--device", device_,
@@ -73,34 +76,41 @@ class FeelCommand : public Command {
         ->type_name("NAME");
     parser()
         .add_option("--replay", replay_,
-                    "trajectory.csv whose positions the device point takes exactly, in the scene's world; or a "
-                    "recording, repeated where the scene has it registered")
+                    "trajectory.csv with the positions of the device point in the scene's world; or a recording, "
+                    "repeated where the scene has it registered")
         ->type_name("FILE|REC");
     parser().add_flag("--mapped", mapped_, "The positions of --replay are in the tracker's world");
-    parser().add_option("--rate", rate_, "Of the servo, Hz; 1000")->type_name("HZ");
-    parser().add_option("--log", log_, "Write a row a tick")->type_name("FILE.csv");
+    parser().add_option("--rate", rate_, "Rate of the servo, Hz; default: 1000")->type_name("HZ");
+    parser().add_option("--log", log_, "Write one row per tick")->type_name("FILE.csv");
     parser()
         .add_option("--duration", duration_, "Stop after this time; else at the path's end, or until interrupted")
         ->type_name("TIME");
     parser().add_flag("--timing", timing_, "Time each step: a column step_ns in the log");
-    parser().add_flag("--realtime", realtime_, "By the clock also where nobody is there to feel it (sim, replay)");
+    parser().add_flag("--realtime", realtime_, "Run in real time also without a hand (sim, replay)");
     parser()
-        .add_option("--mesh-unit", options_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
+        .add_option("--mesh-unit", options_.mesh_unit,
+                    "Unit of a mesh given without a scene: m (the default), mm, or a length such as 0.06m")
         ->type_name("LENGTH");
-    parser().add_option("--tip", tip_, "Radius of the tip; a point")->type_name("LENGTH");
+    parser().add_option("--tip", tip_, "Radius of the tip; default: a point")->type_name("LENGTH");
     parser()
         .add_option("--texture-model", model_,
                     "height, normal-perturbation, lateral-gradient, stochastic, autoregressive or decaying-sinusoids, "
                     "for all textures; auto: each its own")
         ->type_name("NAME");
-    parser().add_option("--stiffness", stiffness_, "Where the scene knows none, N/m; 1000")->type_name("K");
-    parser().add_option("--friction", friction_, "Coefficient where the scene knows none; 0")->type_name("MU");
-    parser().add_option("--from", from_, "sim: where the stroke begins, x,y,z in m or with units")->type_name("POINT");
-    parser().add_option("--to", to_, "sim: where it turns; without both, along the texture")->type_name("POINT");
-    parser().add_option("--press", press_, "sim: force of the hand; 1N")->type_name("FORCE");
-    parser().add_option("--speed", speed_, "sim: of the stroke; 50mm/s")->type_name("SPEED");
     parser()
-        .add_option("-o,--output", output_, "Folder of result.json, and of the log unless --log says where")
+        .add_option("--stiffness", stiffness_, "Stiffness where the scene states none, N/m; default: 1000")
+        ->type_name("K");
+    parser()
+        .add_option("--friction", friction_, "Coefficient where the scene states none; default: 0")
+        ->type_name("MU");
+    parser().add_option("--from", from_, "sim: where the stroke begins, x,y,z in m or with units")->type_name("POINT");
+    parser()
+        .add_option("--to", to_, "sim: where the stroke reverses; without both, it is along the texture")
+        ->type_name("POINT");
+    parser().add_option("--press", press_, "sim: force of the hand; default: 1N")->type_name("FORCE");
+    parser().add_option("--speed", speed_, "sim: speed of the stroke; default: 50mm/s")->type_name("SPEED");
+    parser()
+        .add_option("-o,--output", output_, "Folder of result.json, and of the log unless --log names its file")
         ->type_name("OUT");
   }
 
@@ -126,13 +136,13 @@ class FeelCommand : public Command {
   int run(const Observer& observer) override {
     input_ = scene_input_of(options_);
     if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
-      throw UsageError("--log: a file's name is needed");
+      throw UsageError("--log needs the name of a file");
     std::vector<std::string> inputs = input_.height_maps;
     inputs.insert(inputs.end(), {input_.scene, replay_});
     if (!log_.empty()) refuse_stranger(log_, kFeelLogColumns, inputs);
     choose_device();
     std::optional<OutputFolder> folder;
-    if (!output_.empty()) folder.emplace(output_, is_our_folder);
+    if (!output_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(replay_.empty() ? input_.scene : replay_);
     const Scene scene = read_scene(observer);
@@ -203,7 +213,8 @@ class FeelCommand : public Command {
 
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
-    if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
+    if (device_ == "mouse")
+      throw UsageError("--device mouse: the mouse is a device of the studio's page only; run asperity studio");
     const DeviceKind* kind = find_device_kind(device_);
     if (!kind) throw UsageError("--device: '" + printable(device_) + "' is none of " + device_list("and", {}));
     kind_ = *kind;
@@ -215,8 +226,9 @@ class FeelCommand : public Command {
       throw UsageError("--device " + device_ + " needs --replay");
     if (!kind_.driven() && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
-    if (from_.empty() != to_.empty()) throw UsageError("--from and --to belong together");
-    if (!from_.empty() && (!kind_.driven() || !replay_.empty())) throw UsageError("--from: no hand is modelled");
+    if (from_.empty() != to_.empty()) throw UsageError("--from and --to need each other");
+    if (!from_.empty() && (!kind_.driven() || !replay_.empty()))
+      throw UsageError("--from: only the device sim has a modelled hand");
     if (kind_.has_person) settings_.servo.paced = true;
   }
 
@@ -257,7 +269,7 @@ class FeelCommand : public Command {
     try {
       refuse_stranger(file, format_flight_record({}));
       write_flight_record(file, servo.last_ticks);
-      warnings_.push_back("what happened before the fault is in " + printable(file.filename().string(), 200));
+      warnings_.push_back("the ticks before the fault are in " + printable(file.filename().string(), 200));
     } catch (const Error& error) {
       warnings_.push_back(std::string("no flight record: ") + error.what());
     }

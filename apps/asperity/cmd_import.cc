@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -38,16 +39,16 @@ struct SettingOption {
 
 constexpr SettingOption kSettingOptions[] = {
     {"--columns", "mapping.columns", "TEXT", "What the columns mean: \"t=Time[ms], px=X[mm], ax=#5[g], …\""},
-    {"--pose-columns", "mapping.pose.columns", "TEXT", "The same of the poses' file alone"},
-    {"--imu-columns", "mapping.imu.columns", "TEXT", "The same of the inertial sensor's"},
-    {"--gyro-columns", "mapping.gyro.columns", "TEXT", "The same of the gyroscope's"},
-    {"--force-columns", "mapping.force.columns", "TEXT", "The same of the force's"},
-    {"--preset", "mapping.pose.preset", "NAME", "Whose file of poses it is, or none; by its content unless given"},
-    {"--imu-preset", "mapping.imu.preset", "NAME", "Whose file of the inertial sensor it is"},
-    {"--force-preset", "mapping.force.preset", "NAME", "Whose file of the force it is"},
+    {"--pose-columns", "mapping.pose.columns", "TEXT", "Columns of the poses' file alone"},
+    {"--imu-columns", "mapping.imu.columns", "TEXT", "Columns of the inertial sensor's file"},
+    {"--gyro-columns", "mapping.gyro.columns", "TEXT", "Columns of the gyroscope's file"},
+    {"--force-columns", "mapping.force.columns", "TEXT", "Columns of the force's file"},
+    {"--preset", "mapping.pose.preset", "NAME", "Program that wrote the poses, or none; default: by their content"},
+    {"--imu-preset", "mapping.imu.preset", "NAME", "Program that wrote the inertial sensor's file"},
+    {"--force-preset", "mapping.force.preset", "NAME", "Program that wrote the force's file"},
     {"--body", "mapping.pose.body", "NAME", "The body, where a file has several"},
     {"--euler", "mapping.euler", "ORDER", "Order of Euler angles: xyz, zyx, …"},
-    {"--euler-axes", "mapping.euler_axes", "KIND", "intrinsic (each about the turned axis) or extrinsic"},
+    {"--euler-axes", "mapping.euler_axes", "KIND", "intrinsic (each about the rotated axis) or extrinsic"},
     {"--quaternion", "mapping.quaternion", "ORDER", "Order in a range of columns: xyzw or wxyz"},
     {"--up", "mapping.up", "AXIS", "The world's axis that points up: x, y, z, -x, -y, -z"},
     {"--imu-axes", "mapping.imu_axes", "AXES", "The sensor's axes that are the body's: y,-x,z; or qw,qx,qy,qz"},
@@ -57,14 +58,16 @@ constexpr SettingOption kSettingOptions[] = {
     {"--gyro-rate", "mapping.gyro.rate_Hz", "HZ", "Rate of a gyroscope's samples without times"},
     {"--force-rate", "mapping.force.rate_Hz", "HZ", "Rate of force samples without times"},
     {"--pose-rate", "import.pose_rate_Hz", "HZ", "Thin the poses to this rate, Hz"},
-    {"--seed", "import.seed", "N", "Of the noise"},
+    {"--seed", "import.seed", "N", "Random seed of the noise"},
 };
 
 class ImportCommand : public Command {
  public:
   explicit ImportCommand(Parser& root)
-      : Command(root, "import", "Make a recording of other programs' tables: poses, an inertial sensor, a force") {
-    parser().add_option("--pose", pose_, "Table with the poses; with all, if it is the only file")->type_name("FILE");
+      : Command(root, "import", "Make a recording from tables of other programs: poses, an inertial sensor, a force") {
+    parser()
+        .add_option("--pose", pose_, "Table with the poses; with all data, if it is the only file")
+        ->type_name("FILE");
     parser()
         .add_option("--imu", imu_, "Table with the accelerometer and the gyroscope; with --stroke also one an axis")
         ->one_value_each()
@@ -84,27 +87,28 @@ class ImportCommand : public Command {
     parser().add_option("--tip", tip_, "The tip in the body's axes: 0mm,0mm,-120mm")->type_name("X,Y,Z");
     parser().add_option("--pose-noise", noise_, "Add noise along the world's axes")->type_name("X,Y,Z");
     parser()
-        .add_option("--tracker-sigma", sigma_, "White noise of a pose's position, each axis; estimated unless stated")
+        .add_option("--tracker-sigma", sigma_, "White noise of a pose's position on each axis; default: estimated")
         ->type_name("LENGTH");
     parser()
         .add_option("--tracker-sigma-deg", sigma_deg_, "White noise of a pose's rotation about each axis, degrees")
         ->type_name("DEGREES");
     parser().add_option("--mapping", mapping_file_, "Read the mapping from a file")->type_name("FILE.toml");
     parser()
-        .add_option("--save-mapping", save_mapping_, "Write the mapping with what was guessed")
+        .add_option("--save-mapping", save_mapping_, "Write the mapping with the values that were guessed")
         ->type_name("FILE.toml");
     parser().add_flag("--stroke", stroke_,
                       "A stroke without orientations, for textures and spectra: an acceleration of one to three axes, "
                       "and what there is of positions and force; for one column: --stroke --imu acc.txt "
                       "--imu-columns \"ax=#1[g]\" --imu-rate 10000 -o STROKE");
     parser()
-        .add_option("--stroke-speed", stroke_speed_, "Speed of a stroke without positions, as it was held")
+        .add_option("--stroke-speed", stroke_speed_, "Speed of a stroke without positions, as the hand held it")
         ->type_name("SPEED");
     parser()
-        .add_option("--stroke-force", stroke_force_, "Force of a stroke without a force, as it was held: 1N")
+        .add_option("--stroke-force", stroke_force_,
+                    "Force of a stroke without a force sensor, as the hand held it, such as 1N")
         ->type_name("FORCE");
-    parser().add_flag("--dry-run", dry_run_, "Print what the columns are read as, and write nothing");
-    parser().add_flag("--unchecked", unchecked_, "Import in spite of what does not look plausible");
+    parser().add_flag("--dry-run", dry_run_, "Print the meaning of each column, and write nothing");
+    parser().add_flag("--unchecked", unchecked_, "Import in spite of implausible units or axes");
     parser().add_option("-o,--output", output_, "The recording's folder")->type_name("REC");
   }
 
@@ -155,7 +159,7 @@ class ImportCommand : public Command {
     if (output_.empty() && !dry_run_) throw UsageError("--output is required, or --dry-run");
     if (stroke_) return run_stroke();
     if (pose_.empty()) throw UsageError("--pose is required, or --stroke for an acceleration without poses");
-    if (imu_.size() > 1) throw UsageError("--imu is one file, but with --stroke");
+    if (imu_.size() > 1) throw UsageError("--imu: several files need --stroke");
     const ImportFiles files{pose_, imu_file(), gyro_, force_, object_pose_};
     if (!dry_run_ && save_mapping_.empty() && is_same_config(mapping_, MappingConfig{}) && has_fixed_columns(files)) {
       return run_fixed(observer);
@@ -197,7 +201,7 @@ class ImportCommand : public Command {
   int run_stroke() {
     if (pose_.empty() && imu_.empty()) throw UsageError("--stroke needs --imu, or --pose for one file with all");
     if (!gyro_.empty() || !object_pose_.empty() || !save_mapping_.empty())
-      throw UsageError("--stroke takes no --gyro, --object-pose or --save-mapping");
+      throw UsageError("--stroke excludes --gyro, --object-pose and --save-mapping");
     StrokeReading reading = read_stroke({{imu_.begin(), imu_.end()}, pose_, force_}, mapping_, stroke_config_);
     std::string text = stroke_columns_text(reading.tables);
     if (!dry_run_ && !unchecked_ && !reading.doubts.empty()) {
@@ -213,7 +217,7 @@ class ImportCommand : public Command {
       return is_trustworthy(judge_stroke(measure_stroke_evidence(reading.stroke))) ? kDone : kNotTrustworthy;
     }
     for (const std::string& doubt : reading.doubts) reading.stroke.problems.push_back({"implausible", doubt, 1});
-    OutputFolder folder(output_, is_our_folder);
+    OutputFolder folder(output_, naming_added(is_our_folder));
     Json out = asperity::write_stroke(folder.path(), reading.stroke, stroke_origins(reading.tables));
     write_listing(folder.path());
     commit_output(folder, output_);

@@ -13,7 +13,7 @@ namespace {
 class InspectCommand : public Command {
  public:
   explicit InspectCommand(Parser& root)
-      : Command(root, "inspect", "Rates, gaps, losses, saturation and noise of a recording, and what looks wrong") {
+      : Command(root, "inspect", "Rates, gaps, losses, saturation and noise of a recording, and its faults") {
     require(parser().add_option("REC", recording_, "The recording's folder"));
   }
 

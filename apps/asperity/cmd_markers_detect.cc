@@ -20,8 +20,7 @@ constexpr std::string_view kHeader = "image,id,x0_px,y0_px,x1_px,y1_px,x2_px,y2_
 
 class MarkersDetectCommand : public Command {
  public:
-  explicit MarkersDetectCommand(Parser& markers)
-      : Command(markers, "detect", "The tags in images and where their corners are") {
+  explicit MarkersDetectCommand(Parser& markers) : Command(markers, "detect", "Find tags and their corners in images") {
     require(parser().add_option("IMAGE", images_, "PNG, JPEG or PGM"));
     parser()
         .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
@@ -47,7 +46,7 @@ class MarkersDetectCommand : public Command {
       found += tags.size();
       const std::string name = printable(images_[i], 300);
       if (!output_.empty() && name.find(',') != std::string::npos) {
-        throw Error(name + ": a name with a comma has no place in a table");
+        throw Error(name + ": the name has a comma, which the table cannot hold; rename the file");
       }
       text += fmt::format("{}: {} marker{}\n", name, tags.size(), tags.size() == 1 ? "" : "s");
       Json markers = Json::array();

@@ -40,7 +40,7 @@ std::string family_beside(const std::string& family, const fs::path& folder) {
       fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder.empty() ? "." : folder));
   if (inner.empty() || *inner.begin() == "..") {
     throw Error("--markers: the dictionary " + printable(file, 200) +
-                " does not lie beside the body's file: put it there");
+                " is not in the folder of the body's file: put it there");
   }
   return "aruco:" + inner.generic_string();
 }
@@ -63,7 +63,7 @@ std::vector<int> ids_option(const std::string& text) {
     }
     for (auto id = *first; id <= *last; ++id) {
       if (std::find(out.begin(), out.end(), id) != out.end())
-        throw UsageError("--ids: " + std::to_string(id) + " is given twice: a body has each tag once");
+        throw UsageError("--ids: " + std::to_string(id) + " is given twice; a body has each tag once");
       out.push_back(static_cast<int>(id));
     }
     if (out.size() > 1000) throw UsageError("--ids: more than 1000");
@@ -88,7 +88,7 @@ class PrintCommand : public Command {
  public:
   PrintCommand(Parser& markers, const std::string& name, const std::string& description)
       : Command(markers, name, description) {
-    require(parser().add_option("-o,--output", output_, "Where to put the pages")->type_name("FILE.pdf"));
+    require(parser().add_option("-o,--output", output_, "File of the pages")->type_name("FILE.pdf"));
     parser().add_option("--paper", paper_, "a4 or letter")->one_of({"a4", "letter"})->show_default();
   }
 
@@ -97,7 +97,7 @@ class PrintCommand : public Command {
     if (!markers_.empty()) refuse_stranger(markers_, begins_as_markers, {output_});
     MarkerPrint print = layout(paper_ == "letter" ? Paper::kLetter : Paper::kA4);
     if (!markers_.empty() && print.markers.empty()) {
-      throw Error("--markers: tags on several pages are no rigid body");
+      throw Error("--markers: tags on several pages are not one rigid body; choose fewer tags or a larger page");
     }
     if (!markers_.empty()) {
       for (MarkerPlacement& marker : print.markers) {
@@ -125,7 +125,9 @@ class PrintCommand : public Command {
         ->show_default();
   }
   void add_markers() {
-    parser().add_option("--markers", markers_, "Write the body too: where its tags are")->type_name("markers.json");
+    parser()
+        .add_option("--markers", markers_, "Write the body too: the positions of its tags")
+        ->type_name("markers.json");
   }
   TagFamily family() const { return open_family(family_); }
 
@@ -159,7 +161,7 @@ class RingCommand : public PrintCommand {
     parser().add_option("--size", size_, "The black border's outer edge")->show_default();
     parser().add_option("--sides", config_.sides, "Faces, 3 to 36")->show_default();
     parser().add_option("--first-id", config_.first_id, "The id of face 0")->show_default();
-    parser().add_option("--face", face_, "Width of a face; as narrow as a tag with its white margin without");
+    parser().add_option("--face", face_, "Width of a face; default: a tag with its white margin");
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/merge_results.h"
@@ -57,7 +58,8 @@ std::string merge_summary(const ProcessResult& result, const MergeConfig& config
 class MergeCommand : public Command {
  public:
   explicit MergeCommand(Parser& root)
-      : Command(root, "merge", "Several strokes over one line as one profile, aligned and averaged by their noise") {
+      : Command(root, "merge",
+                "Merge several strokes over one line to one profile, aligned and averaged by their noise") {
     require(parser().add_option("PASS", inputs_,
                                 "Two or more recordings, or folders that process has written with "
                                 "--set profile.remove_noise=false"));
@@ -68,7 +70,7 @@ class MergeCommand : public Command {
 
   int run(const Observer& observer) override {
     if (inputs_.size() < 2) throw UsageError("PASS: a merge needs at least two strokes");
-    OutputFolder folder(output_, is_result_folder);
+    OutputFolder folder(output_, naming_added(is_result_folder));
     MergeInput input;
     const std::vector<std::string> names = stroke_names(inputs_);
     for (std::size_t i = 0; i < inputs_.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -42,17 +43,18 @@ class PaintCommand : public Command {
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
     Option* mesh =
         parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .off .gltf .glb) or a scene.json to paint on");
-    Option* into = parser()
-                       .add_option("--into", into_,
-                                   "Scene of an earlier registration or painting to paint into; all else in it stays")
-                       ->type_name("scene.json")
-                       ->excludes(mesh);
+    Option* into =
+        parser()
+            .add_option("--into", into_,
+                        "Scene of an earlier registration or painting to paint into; its other content is kept")
+            ->type_name("scene.json")
+            ->excludes(mesh);
     require(parser().add_option(
                 "--through", through_,
                 "Points x,y,z;x,y,z;… near the surface, in the mesh's frame: in the mesh's unit if --mesh-unit is "
                 "given, else in metres"))
         ->type_name("POINTS");
-    require(parser().add_option("--texture", texture_, "What to paint with, a *.texture.json"))->type_name("FILE");
+    require(parser().add_option("--texture", texture_, "Texture to paint with, a *.texture.json"))->type_name("FILE");
     parser()
         .add_option("-o,--output", output_, "Folder of the scene (required without --into)")
         ->type_name("OUT")
@@ -61,11 +63,11 @@ class PaintCommand : public Command {
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
-    parser().add_option("--rings", rings_, "Rings of triangles about those under the path")->type_name("N");
+    parser().add_option("--rings", rings_, "Number of rings of triangles around those under the path")->type_name("N");
     parser()
-        .add_option("--width", width_, "Of the stroke: triangles this near to its middle line, instead of rings")
+        .add_option("--width", width_, "Width of the stroke around its middle line, instead of rings")
         ->type_name("LENGTH");
-    parser().add_option("--index", index_, "Of the texture; default: the next free one")->type_name("N");
+    parser().add_option("--index", index_, "Index of the texture; default: the next free one")->type_name("N");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }
@@ -78,11 +80,11 @@ class PaintCommand : public Command {
   int run(const Observer& observer) override {
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::vector<Eigen::Vector3d> picks = points_option_m("--through", through_, unit_m);
-    if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
-    if (mesh_.empty() && into_.empty()) throw UsageError("MESH is missing, or --into");
-    if (output_.empty() && into_.empty()) throw UsageError("-o is missing: the folder of the scene, or --into");
+    if (picks.size() < 2) throw UsageError("--through needs at least two points x,y,z, separated by ;");
+    if (mesh_.empty() && into_.empty()) throw UsageError("MESH or --into is missing");
+    if (output_.empty() && into_.empty()) throw UsageError("-o (the folder of the scene) or --into is missing");
     std::optional<OutputFolder> folder;
-    if (into_.empty()) folder.emplace(output_, is_our_folder);
+    if (into_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     observer.update("reading", 0.0);
     reads(into_.empty() ? mesh_ : into_);
     EarlierScene earlier = read(unit_m, observer);
@@ -98,7 +100,7 @@ class PaintCommand : public Command {
         paint(object, picks, texture, settings_.coordinates, under_ ? LayAt::kUnder : LayAt::kOver);
     reads("");
     observer.update("writing", 1.0);
-    const fs::path target = into_.empty() ? fs::path(output_) : earlier.folder;
+    const fs::path shown = into_.empty() ? fs::path(output_) : earlier.given;
     const fs::path place = folder ? folder->path() : scene_folder->path();
     const std::string json = to_json(result, object, texture).dump_repaired(2);
     write_file(place / "paint.json", json + "\n");
@@ -107,10 +109,11 @@ class PaintCommand : public Command {
     if (folder) {
       commit_output(*folder, output_);
     } else {
-      name_kept(target, scene_folder->commit());
+      name_kept(shown, scene_folder->commit());
     }
+    for (const std::string& note : covered_notes(result, object, texture)) print_error("paint: " + note);
     print_json(json);
-    say(summary(result, texture) + "scene in " + printable(target.string(), 200) + "\n");
+    say(summary(result, texture) + "scene in " + printable(shown.string(), 200) + "\n");
     return kDone;
   }
 
@@ -123,7 +126,7 @@ class PaintCommand : public Command {
       if (into_.empty()) {
         out.scene = read_painted_scene(mesh_, unit, observer);
       } else {
-        if (fs::path(into_).extension() != ".json") throw UsageError("--into: a scene's file is called *.json");
+        if (fs::path(into_).extension() != ".json") throw UsageError("--into: the file of a scene ends in .json");
         out = read_earlier_scene(into_, observer);
         if (unit) set_mesh_unit(out.scene, into_, *unit);
       }

@@ -31,7 +31,7 @@ class PlotCommand : public Command {
         "RESULT", results_,
         "Folders of process, register, merge or area, a profile.csv, an areal *.texture.json, or heights in any file "
         "that `roughness` reads; several are laid over each other"));
-    require(parser().add_option("-o,--output", output_, "The picture; its ending states the format"))
+    require(parser().add_option("-o,--output", output_, "File of the picture; its ending states the format"))
         ->type_name("FILE.svg|FILE.png|FILE.pdf");
     parser()
         .add_option("--parts", parts_text_,
@@ -51,7 +51,8 @@ class PlotCommand : public Command {
 
   int run(const Observer& observer) override {
     const DrawingFormat format = format_of(output_);
-    if (!(resolution_ >= 0.25 && resolution_ <= 16.0)) throw UsageError("--resolution: 0.25 to 16");
+    if (!(resolution_ >= 0.25 && resolution_ <= 16.0))
+      throw UsageError("--resolution: the value must be between 0.25 and 16");
     if (results_.size() > kMostResults)
       throw UsageError("more than " + std::to_string(kMostResults) + " results, too many for one plot");
     const std::vector<studio::FigurePart> parts = parts_of(parts_text_);
@@ -75,7 +76,7 @@ class PlotCommand : public Command {
     for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (std::size_t i = 0; i < kDrawingFormatNames.size(); ++i)
       if (ending == "." + std::string(kDrawingFormatNames.at(i))) return static_cast<DrawingFormat>(i);
-    throw UsageError("-o: " + printable(file, 200) + " ends in none of .svg, .png and .pdf");
+    throw UsageError("-o: " + printable(file, 200) + " does not end in .svg, .png or .pdf");
   }
 
   static bool begins_as_plot(std::string_view begin, DrawingFormat format) {

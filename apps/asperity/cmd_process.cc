@@ -10,8 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/in_background.h"
+#include "asperity/base/interval_text.h"
 #include "asperity/base/output.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/process_result.h"
@@ -44,6 +47,8 @@ std::string verdict_lines(const Verdicts& verdicts) {
 std::string with_error(double value, double error, int decimals) {
   if (!std::isfinite(value)) return "not determined";
   if (!std::isfinite(error)) return fmt::format("{:.{}f}", value, decimals);
+  // Of a value that is much better known than that, more decimals: "0.05 ± 0.0" states nothing.
+  if (error > 0.0 && error < 0.5 * std::pow(10.0, -decimals)) return interval_text(value, error, 1);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 
@@ -57,8 +62,8 @@ std::string friction_lines(const FrictionEstimate& f) {
     out = "  friction    " + f.verdict + "\n";
   }
   if (f.stribeck) {
-    out += fmt::format("              {:.3f} at rest, {:.3f} sliding, Stribeck speed {:.1f} mm/s\n",
-                       f.stribeck->at_rest, f.stribeck->sliding, 1e3 * f.stribeck->speed_mps);
+    out += fmt::format("              {:.3f} static, {:.3f} sliding, Stribeck speed {:.1f} mm/s\n", f.stribeck->at_rest,
+                       f.stribeck->sliding, 1e3 * f.stribeck->speed_mps);
   }
   if (f.sticks > 0) {
     out += fmt::format("              stuck {} times, {:.1f} % of the contact", f.sticks, 100.0 * f.stuck_share);
@@ -95,8 +100,9 @@ std::string result_summary(const ProcessResult& result) {
                                 with_error(1e3 * result.base.length_m, length_stderr_mm, 2), shape,
                                 100.0 * result.coverage.covered, result.speed.mean_mps * 1e3);
   if (std::isfinite(result.noise.snr)) {
-    out += fmt::format("  noise       {:.2g} ± {:.1g} µm RMS in the texture, signal to noise {:.3g} (power)\n",
-                       1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, result.noise.snr);
+    out += fmt::format("  noise       {} µm RMS in the texture, signal to noise {} (power)\n",
+                       interval_text(1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, 1, 2),
+                       rounded_text(result.noise.snr));
   }
   out += repeated_lines(result);
   if (result.roughness) {
@@ -110,9 +116,8 @@ std::string result_summary(const ProcessResult& result) {
                          std::isfinite(r.RSm_m) ? with_error(1e3 * r.RSm_m, 1e3 * r.standard_error.RSm_m, 3) + " mm"
                                                 : std::string("not determined"));
     } else {
-      out += fmt::format(
-          "  roughness   not determined: the texture does not stand out of its noise; Rq is at most {:.2g} µm\n",
-          1e6 * result.noise.at_most_m);
+      out += fmt::format("  roughness   not determined: the texture is not above its noise; Rq is at most {:.2g} µm\n",
+                         1e6 * result.noise.at_most_m);
     }
   }
   if (result.periodicity.periodic) {
@@ -175,12 +180,12 @@ std::string folder_name(const std::string& path) {
 class ProcessCommand : public Command {
  public:
   explicit ProcessCommand(Parser& root)
-      : Command(root, "process", "From recordings to surface profiles, roughness and haptic textures") {
+      : Command(root, "process", "Measure surface profiles, roughness and haptic textures from recordings") {
     require(parser().add_option("REC", recordings_,
                                 "Recordings; several give OUT/NAME/ each, and several segments with gaps between them "
                                 "OUT/SEGMENT/ or OUT/NAME/SEGMENT/ each"));
     require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
-    parser().add_option("--segment", segment_, "Only this segment of each recording")->type_name("NAME");
+    parser().add_option("--segment", segment_, "Process only this segment of each recording")->type_name("NAME");
     parser()
         .add_option("--method", method_, "The first is the default: " + ProcessMethods::describe())
         ->type_name("NAME");
@@ -200,12 +205,12 @@ class ProcessCommand : public Command {
   int run(const Observer& observer) override {
     std::set<std::string> names;
     for (const std::string& recording : recordings_) {
-      if (recording.empty()) throw UsageError("REC: a recording's folder has no name");
+      if (recording.empty()) throw UsageError("REC: the name of a recording's folder is empty");
       if (!names.insert(folder_name(recording)).second) {
         throw UsageError("two recordings are called '" + printable(folder_name(recording)) + "'");
       }
     }
-    OutputFolder folder(output_, is_result_folder);
+    OutputFolder folder(output_, naming_added(is_result_folder));
     std::string text;
     for (const std::string& path : recordings_) {
       const std::string name = folder_name(path);

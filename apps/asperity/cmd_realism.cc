@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -40,7 +41,7 @@ struct RealismSettings {
 class RealismCommand : public Command {
  public:
   explicit RealismCommand(Parser& root)
-      : Command(root, "realism", "Real against rendered: a stroke held back beside a texture or scene made of others") {
+      : Command(root, "realism", "Compare a stroke that was held back with a texture or scene made of other strokes") {
     require(parser().add_option("RENDERED", rendered_,
                                 "A *.texture.json, a folder that process or merge has written (its whole profile), a "
                                 "scene.json or its folder"));
@@ -49,9 +50,11 @@ class RealismCommand : public Command {
         .add_option("--with", others_, "Other recordings over the same line: their agreement is the ceiling")
         ->type_name("REC");
     parser().add_flag("--allow-own", allow_own_,
-                      "Also a stroke that RENDERED was made from: a self-test, not a comparison");
-    parser().add_option("--stiffness", stiffness_, "Where RENDERED states none, N/m; 1000")->type_name("K");
-    parser().add_option("--friction", friction_, "Coefficient where RENDERED states none; 0")->type_name("MU");
+                      "Allow a stroke that RENDERED was made from: a self-test, not a comparison");
+    parser()
+        .add_option("--stiffness", stiffness_, "Stiffness where RENDERED states none, N/m; default: 1000")
+        ->type_name("K");
+    parser().add_option("--friction", friction_, "Coefficient where RENDERED states none; default: 0")->type_name("MU");
     parser().add_option("-o,--output", output_, "Folder of result.json")->type_name("OUT");
   }
 
@@ -65,7 +68,7 @@ class RealismCommand : public Command {
 
   int run(const Observer& observer) override {
     std::optional<OutputFolder> folder;
-    if (!output_.empty()) folder.emplace(output_, is_our_folder);
+    if (!output_.empty()) folder.emplace(output_, naming_added(is_our_folder));
     reads(rendered_);
     const RenderedInput input = read_rendered(rendered_, observer);
     reads(stroke_);
@@ -73,9 +76,9 @@ class RealismCommand : public Command {
     const StrokeSource own = source_of(stroke_, held, last_part(stroke_));
     const bool is_own = is_among(input.sources, own);
     if (is_own && !allow_own_) {
-      throw Error(
-          "--stroke " + printable(stroke_, 200) + ": " + printable(rendered_, 200) +
-          " was made from this recording or a part of it; hold one back, or see what it is worth with --allow-own");
+      throw Error("--stroke " + printable(stroke_, 200) + ": " + printable(rendered_, 200) +
+                  " was made from this recording or a part of it; give a stroke that was held back, or use --allow-own "
+                  "for a self-test");
     }
     const RealStroke stroke = measure_real_stroke(stroke_, held, input, settings_.process, observer);
     std::vector<RealStroke> others;

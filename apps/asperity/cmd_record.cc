@@ -50,18 +50,19 @@ class RecordCommand : public Command {
         ->type_name("ADDRESS");
     parser().add_option("--protocol", input_.protocol, "open (the default) or what")->type_name("NAME");
     parser()
-        .add_option("--capture", input_.capture, "Keep the probe's bytes too, in a new file for --probe file:CAPTURE")
+        .add_option("--capture", input_.capture,
+                    "Also write the bytes of the probe to a new file, for --probe file:CAPTURE")
         ->type_name("FILE");
     parser()
         .add_option("--camera", input_.camera,
                     "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE (by ffmpeg)")
         ->type_name("ADDRESS");
     parser()
-        .add_option("--markers", input_.markers, "The tags on the probe; else those of the calibration")
+        .add_option("--markers", input_.markers, "Tags on the probe; default: those of the calibration")
         ->type_name("markers.json");
     parser()
         .add_option("--poses", input_.poses,
-                    "Instead of a camera another tracker's lines t_ns,px_m,…: udp:PORT, pipe:PATH or file:PATH")
+                    "Lines t_ns,px_m,… of another tracker instead of a camera: udp:PORT, pipe:PATH or file:PATH")
         ->type_name("ADDRESS");
     parser()
         .add_option("--body", input_.bodies,
@@ -69,12 +70,13 @@ class RecordCommand : public Command {
         ->type_name("NAME");
     parser().add_option("--world", info_.world, "The poses' world: camera (the default) or z_up")->type_name("NAME");
     parser()
-        .add_option("--calibration", input_.calibration, "Of the probe, the camera and the tracker")
+        .add_option("--calibration", input_.calibration, "Calibration of the probe, the camera and the tracker")
         ->type_name("calibration.json");
-    parser().add_flag("--uncalibrated", input_.uncalibrated, "Record without one, to calibrate from");
-    parser().add_flag("--auto", auto_, "Store only while the probe touches");
-    parser().add_option("--duration", duration_, "Stop after this time; else at q or Ctrl-C")->type_name("TIME");
-    parser().add_option("--object", info_.object, "What is scanned")->type_name("NAME");
+    parser().add_flag("--uncalibrated", input_.uncalibrated,
+                      "Record without a calibration, to calibrate from the recording");
+    parser().add_flag("--auto", auto_, "Store data only while the probe is in contact");
+    parser().add_option("--duration", duration_, "Stop after this time; default: at q or Ctrl-C")->type_name("TIME");
+    parser().add_option("--object", info_.object, "Name of the scanned object")->type_name("NAME");
     parser().add_flag("--frames", frames_, "Keep the camera's images as PNG in frames/");
     require(parser().add_option("-o,--output", output_, "The recording's folder, which must not exist yet"))
         ->type_name("REC");
@@ -126,11 +128,11 @@ class RecordCommand : public Command {
     if (input_.probe.empty()) throw UsageError("--probe: an address is needed");
     if (!input_.camera.empty() && !input_.poses.empty()) throw UsageError("--camera and --poses exclude each other");
     if (input_.calibration.empty() && !input_.uncalibrated)
-      throw UsageError("--calibration is missing; without one, --uncalibrated records what is to be calibrated");
+      throw UsageError("--calibration is missing; --uncalibrated records without one, to calibrate from the recording");
     if (!input_.calibration.empty() && input_.uncalibrated)
       throw UsageError("--calibration and --uncalibrated exclude each other");
     if (!input_.camera.empty() && input_.uncalibrated)
-      throw UsageError("--camera needs the camera's --calibration to find poses");
+      throw UsageError("--camera needs --calibration, the calibration of the camera, to find poses");
     if (!input_.markers.empty() && input_.camera.empty()) throw UsageError("--markers needs --camera");
     try {
       check_record_addresses(input_);

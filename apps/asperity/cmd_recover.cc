@@ -38,12 +38,12 @@ std::string stream_text(const RecoveredStream& stream, bool keep_changed) {
 class RecoverCommand : public Command {
  public:
   explicit RecoverCommand(Parser& root)
-      : Command(root, "recover", "Save what a damaged recording holds into a new one") {
+      : Command(root, "recover", "Save the readable data of a damaged recording to a new one") {
     require(parser().add_option("REC", recording_, "The damaged recording's folder, which is only read"));
     parser()
         .add_option("--like", like_, "A recording of the same probe and tracker, for unreadable JSON files")
         ->type_name("REC");
-    parser().add_flag("--keep-changed", options_.keep_changed, "Keep rows whose checksum differs, too");
+    parser().add_flag("--keep-changed", options_.keep_changed, "Also keep rows whose checksum differs");
     require(parser().add_option("-o,--output", output_, "The new recording's folder, which must not exist yet"))
         ->type_name("NEW");
   }

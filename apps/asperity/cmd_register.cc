@@ -15,6 +15,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -38,7 +39,7 @@ namespace fs = std::filesystem;
 class RegisterCommand : public Command {
  public:
   explicit RegisterCommand(Parser& root)
-      : Command(root, "register", "Lay scans on a 3D mesh and give it their textures") {
+      : Command(root, "register", "Align scans with a 3D mesh and give it their textures") {
     parser().add_option(
         "PATH... MESH", files_,
         "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh (.obj .ply "
@@ -46,34 +47,35 @@ class RegisterCommand : public Command {
         "of the scene");
     Option* into = parser()
                        .add_option("--into", into_,
-                                   "Scene of an earlier registration or painting to add the scans to; one of the same "
-                                   "name is replaced. All else in it stays")
+                                   "Scene of an earlier registration or painting to add the scans to; a scan of the "
+                                   "same name is replaced. Its other content is kept")
                        ->type_name("scene.json");
     parser().add_flag("--keep-invalid", keep_invalid_,
-                      "With --into: add scans of an invalid pose too; without it the scene stays as it was");
+                      "With --into: add scans of an invalid pose too; default: the scene is not changed");
     parser()
-        .add_option("--remove", remove_, "Take the scan of this name out of the scene of --into; may be repeated")
+        .add_option("--remove", remove_, "Remove the scan of this name from the scene of --into; may be repeated")
         ->type_name("NAME")
         ->one_value_each();
     parser().add_flag("--under", under_, "Lay the scans under the textures that the scene has, not over them");
     parser()
-        .add_option("--date", date_, "Stored as the date of the scans, such as 2026-11-24; none is stored without it")
+        .add_option("--date", date_, "Date of the scans, such as 2026-11-24; default: no date is stored")
         ->type_name("YYYY-MM-DD");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
     Option* guess =
         parser()
-            .add_option("--guess", guess_,
-                        "x,y,z,qw,qx,qy,qz of T_mesh_world in metres, near which to begin; without any guess the whole "
-                        "mesh is searched")
+            .add_option(
+                "--guess", guess_,
+                "First guess of T_mesh_world, x,y,z,qw,qx,qy,qz in metres; without a guess the whole mesh is searched")
             ->type_name("POSE");
-    Option* align = parser()
-                        .add_option("--align", align_,
-                                    "The guess as x,y,z,rx,ry,rz: metres, and degrees about x, the turned y and "
-                                    "the twice turned z")
-                        ->type_name("SIX")
-                        ->excludes(guess);
+    Option* align =
+        parser()
+            .add_option(
+                "--align", align_,
+                "The guess as x,y,z,rx,ry,rz: metres, and degrees about x, the rotated y and the twice rotated z")
+            ->type_name("SIX")
+            ->excludes(guess);
     parser()
         .add_option("--picks", picks_,
                     "The guess as three or more pairs x,y,z=x,y,z;… of the path's points (m) and the mesh's (in its "
@@ -83,13 +85,12 @@ class RegisterCommand : public Command {
         ->excludes(align);
     parser()
         .add_option("--texture", textures_,
-                    "Texture to lay along a path instead of its own; one for all, or one a path")
+                    "Texture to lay along a path instead of its own; one for all, or one per path")
         ->type_name("FILE");
     parser()
-        .add_option(
-            "--placement", placement_,
-            "Which scans lay in the same placement of the object: auto (the default; found by their likelihood), "
-            "same, each (its own), or a list with one number a path, such as 1,1,2")
+        .add_option("--placement", placement_,
+                    "Which scans lay in the same placement of the object: auto (the default; found by their "
+                    "likelihood), same, each (its own), or a list with one number per path, such as 1,1,2")
         ->type_name("LIST");
     parser()
         .add_option("-o,--output", output_, "Folder of the results (required without --into)")
@@ -115,7 +116,7 @@ class RegisterCommand : public Command {
 
   int run(const Observer& observer) override {
     if (!into_.empty() && fs::path(into_).extension() != ".json")
-      throw UsageError("--into: a scene's file is called *.json");
+      throw UsageError("--into: the file of a scene ends in .json");
     if (!remove_.empty()) return remove_scans(observer);
     check_words();
     std::string mesh_path = into_;
@@ -129,7 +130,7 @@ class RegisterCommand : public Command {
     const std::vector<int> placements = placements_option();
 
     std::optional<OutputFolder> folder;
-    if (into_.empty()) folder.emplace(output_, is_registration_folder);
+    if (into_.empty()) folder.emplace(output_, naming_added(is_registration_folder));
     observer.update("reading", 0.0);
     reads(into_.empty() ? files_.front() : into_, into_.empty() ? mesh_path : into_);
     RegisterInput input = read(mesh_path, unit_m, observer);
@@ -143,7 +144,7 @@ class RegisterCommand : public Command {
     observer.update("writing", 1.0);
     input.onto.at = under_ ? LayAt::kUnder : LayAt::kOver;
     input.onto.date = date_;
-    const fs::path target = into_.empty() ? fs::path(output_) : input.onto.folder;
+    const fs::path target = into_.empty() ? fs::path(output_) : input.onto.given;
     const fs::path place = folder ? folder->path() : scene_folder->path();
     const bool listing = input.onto.files.contains("files.json");
     write_registration(place, result, input.scans, std::move(input.onto), listing);
@@ -160,19 +161,20 @@ class RegisterCommand : public Command {
     for (const Verdict& verdict : result.verdicts) {
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
     }
-    if (!added) print_error(printable(into_, 200) + ": unchanged, for the pose is invalid; --keep-invalid adds it");
+    if (!added)
+      print_error(printable(into_, 200) + ": unchanged, because the pose is invalid; --keep-invalid adds the scan");
     return result.trustworthy ? kDone : kNotTrustworthy;
   }
 
  private:
   // Paths and their mesh, or paths and the scene that has it.
   void check_words() const {
-    if (into_.empty() && output_.empty()) throw UsageError("-o is missing: the folder of the results, or --into");
+    if (into_.empty() && output_.empty()) throw UsageError("-o (the folder of the results) or --into is missing");
     if (into_.empty() && files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
     if (files_.empty() || (files_.size() == 1 && has_mesh(files_.back())))
       throw UsageError("PATH...: at least one path is needed");
     if (keep_invalid_ && into_.empty()) throw UsageError("--keep-invalid needs --into, the scene");
-    if (!is_date(date_)) throw UsageError("--date: '" + printable(date_, 200) + "' is not a date as 2026-11-24");
+    if (!is_date(date_)) throw UsageError("--date: '" + printable(date_, 200) + "' is not a date such as 2026-11-24");
   }
 
   static bool is_date(const std::string& text) {
@@ -209,7 +211,7 @@ class RegisterCommand : public Command {
 
   int remove_scans(const Observer& observer) {
     if (into_.empty()) throw UsageError("--remove needs --into, the scene");
-    if (!files_.empty()) throw UsageError("--remove takes scans out, and none are added with it");
+    if (!files_.empty()) throw UsageError("--remove only removes scans; leave PATH and MESH out");
     observer.update("reading", 0.0);
     reads(into_);
     EarlierScene earlier = read_earlier_scene(into_, observer);
@@ -220,7 +222,7 @@ class RegisterCommand : public Command {
     observer.update("writing", 1.0);
     write_scene_again(folder.path(), earlier, dropped, folder.has_listing());
     if (folder.has_listing()) write_listing(folder.path());
-    name_kept(earlier.folder, folder.commit());
+    name_kept(earlier.given, folder.commit());
     Json out;
     out["format"] = "asperity-register-remove";
     out["version"] = 1;
@@ -229,7 +231,7 @@ class RegisterCommand : public Command {
     for (const SceneTexture* scan : scans_of(earlier.scene)) out["scans"].push_back(scan->origin->name);
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
-    say(fmt::format("{}: {} {} taken out, {} left\n", printable(into_, 200), remove_.size(),
+    say(fmt::format("{}: {} {} removed, {} left\n", printable(into_, 200), remove_.size(),
                     remove_.size() == 1 ? "scan" : "scans", out["scans"].size()));
     return kDone;
   }

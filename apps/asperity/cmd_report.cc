@@ -26,12 +26,12 @@ bool begins_as_report(std::string_view begin) {
 
 class ReportCommand : public Command {
  public:
-  explicit ReportCommand(Parser& root) : Command(root, "report", "From results to one page for the browser") {
+  explicit ReportCommand(Parser& root) : Command(root, "report", "Write results as one page for the browser") {
     require(parser().add_option(
         "OUT", folders_,
         "Folders that asperity process or register has written; several results are laid over each other"));
     parser()
-        .add_option("-o,--output", output_, "The page; without it OUT/report.html, if there is one OUT")
+        .add_option("-o,--output", output_, "File of the page; default: OUT/report.html, if OUT is one folder")
         ->type_name("FILE.html");
   }
 

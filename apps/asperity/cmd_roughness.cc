@@ -29,19 +29,20 @@ class RoughnessCommand : public Command {
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
-    parser().add_option("--lambda-s", lambda_s_, "Shorter waves are left out (S-filter of a map)")->type_name("LENGTH");
+    parser().add_option("--lambda-s", lambda_s_, "Shorter waves are removed (S-filter of a map)")->type_name("LENGTH");
     parser()
-        .add_option("--lambda-c", lambda_c_, "Longer waves are left out of R, and make W (L-filter of a map)")
+        .add_option("--lambda-c", lambda_c_, "Longer waves are removed from R and belong to W (L-filter of a map)")
         ->type_name("LENGTH");
-    parser().add_option("--lambda-f", lambda_f_, "Longer waves are left out of W")->type_name("LENGTH");
+    parser().add_option("--lambda-f", lambda_f_, "Longer waves are removed from W")->type_name("LENGTH");
     parser()
         .add_option("--filter", filter_,
                     "gaussian (ISO 16610-21, of maps 16610-61), or robust (16610-31, 16610-71) for deep pits")
         ->type_name("NAME");
     parser()
-        .add_option("--noise", noise_, "Standard deviation of a map's heights, by the instrument: gives intervals")
+        .add_option("--noise", noise_,
+                    "Standard deviation of a map's heights, as the instrument states it; gives intervals")
         ->type_name("LENGTH");
-    parser().add_option("--table", table_, "Write all values, a row a file")->type_name("FILE.csv");
+    parser().add_option("--table", table_, "Write all values, one row per file")->type_name("FILE.csv");
     parser().add_option("--report", report_, "Write values and plots as one page")->type_name("FILE.html");
     parser()
         .add_option("--class", class_, "Setting class: Sc1 to Sc5 (λc 0.08, 0.25, 0.8, 2.5, 8 mm), or auto")
@@ -64,11 +65,11 @@ class RoughnessCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    if (std::count(files_.begin(), files_.end(), "-") > 1) throw UsageError("standard input (-) can be read once");
+    if (std::count(files_.begin(), files_.end(), "-") > 1) throw UsageError("standard input (-) can be read only once");
     std::error_code unknown;
     if (!table_.empty() && !report_.empty() &&
         std::filesystem::weakly_canonical(table_, unknown) == std::filesystem::weakly_canonical(report_, unknown)) {
-      throw UsageError("--table and --report are one file");
+      throw UsageError("--table and --report name the same file");
     }
     if (!table_.empty()) refuse_stranger(table_, kRoughnessCsvBegin, files_);
     if (!report_.empty()) refuse_stranger(report_, kRoughnessHtmlBegin, files_);

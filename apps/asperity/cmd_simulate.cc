@@ -33,26 +33,29 @@ class SimulateCommand : public Command {
     }
     require(parser().add_option("--surface", surface_, names + ", or a file of heights"))->type_name("NAME|FILE");
     parser()
-        .add_option("--probe", probe_, "open (16 bit, 4 kHz), or what (8 bit, 400 Hz: the probe of the thesis); open")
+        .add_option("--probe", probe_,
+                    "open (the default: 16 bit, 4 kHz), or what (8 bit, 400 Hz: the probe of the thesis)")
         ->type_name("NAME");
     parser()
-        .add_option("--material", material_, "What the surface is made of: stiff, cork or soft_rubber; stiff")
+        .add_option("--material", material_, "Material of the surface: stiff (the default), cork or soft_rubber")
         ->type_name("NAME");
     parser()
         .add_option("--mesh", mesh_, "A mesh to scan over; the surface is laid on it along the path")
         ->type_name("FILE");
     parser()
-        .add_option("--mesh-unit", mesh_unit_, "The mesh file's unit: m, mm or a length such as 0.06m; m")
+        .add_option("--mesh-unit", mesh_unit_, "Unit of the mesh file: m (the default), mm or a length such as 0.06m")
         ->type_name("UNIT");
     parser()
-        .add_option("--through", through_, "Points of the path over the mesh, in its own frame, m; else one is chosen")
+        .add_option("--through", through_,
+                    "Points of the path over the mesh, in its own frame, m; default: a path is chosen")
         ->type_name("\"X,Y,Z;X,Y,Z\"");
     parser()
-        .add_option("--object-motion", object_motion_,
-                    "none, held (in the other hand, with a marker body on it) or turned (rotated in it as well); none")
+        .add_option(
+            "--object-motion", object_motion_,
+            "none (the default), held (in the other hand, with a marker body on it) or turned (held and rotated)")
         ->type_name("NAME");
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
-    parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
+    parser().add_option("--seed", seed_, "Random seed; the same seed gives the same bytes")->type_name("N");
     parser().add_flag("--live", live_,
                       "Play the scan in real time: the probe over a pseudo-terminal, the camera over a FIFO");
     require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");

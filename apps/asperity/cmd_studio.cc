@@ -23,14 +23,17 @@ namespace fs = std::filesystem;
 
 class StudioCommand : public Command {
  public:
-  explicit StudioCommand(Parser& root) : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
+  explicit StudioCommand(Parser& root)
+      : Command(root, "studio", "Scan, process, align, paint and render in a browser") {
     parser().add_option("WHAT", what_,
-                        "A recording, scene or mesh, whose folder is worked in, or a folder; the current one");
+                        "A recording, scene or mesh, whose folder is opened, or a folder; default: the current folder");
     parser()
         .add_option("--port", config_.server.port, "0 (the default): a free one")
         ->in_range(0, 65535)
         ->type_name("N");
-    parser().add_option("--host", config_.server.host, "Address to listen at; 127.0.0.1")->type_name("ADDRESS");
+    parser()
+        .add_option("--host", config_.server.host, "Address to listen at; default: 127.0.0.1")
+        ->type_name("ADDRESS");
     parser().add_flag("--remote-force", config_.remote_force,
                       "With --host: browsers of other machines may command forces too");
     parser()
@@ -40,11 +43,11 @@ class StudioCommand : public Command {
         .add_option("--tls-key", key_, "Key (PEM) of the certificate, for its owner's eyes alone")
         ->type_name("FILE");
     parser().add_flag("--no-open", no_open_, "Do not open a browser");
-    Option* sessions = parser().add_flag("--sessions", list_, "List your studios that run and who was let in; end");
+    Option* sessions = parser().add_flag("--sessions", list_, "List your running studios and their sessions, and stop");
     Option* token = parser().add_flag("--new-token", new_token_,
-                                      "Renew the address of your studio that runs, end all its sessions; end");
+                                      "Renew the address of your running studio, end all its sessions, and stop");
     Option* close = parser()
-                        .add_option("--close-session", close_, "Close this session of your studio that runs; end")
+                        .add_option("--close-session", close_, "End this session of your running studio, and stop")
                         ->in_range(1, 1'000'000'000)
                         ->type_name("N");
     sessions->excludes(token);
@@ -62,7 +65,7 @@ class StudioCommand : public Command {
                   ", and build again");
     }
     choose_folder();
-    if (certificate_.empty() != key_.empty()) throw UsageError("--tls-cert and --tls-key go together");
+    if (certificate_.empty() != key_.empty()) throw UsageError("--tls-cert and --tls-key need each other");
     config_.server.tls_certificate = certificate_;
     config_.server.tls_key = key_;
     config_.notice = [](const std::string& sentence) { print_error(sentence); };

@@ -26,7 +26,7 @@ class StudySummarizeCommand : public Command {
     observer.update("reading", 0.0);
     reads(log_);
     const std::string name = printable(log_, 200);
-    if (std::filesystem::is_directory(log_)) throw Error(name + ": a folder, where the log of a study is needed");
+    if (std::filesystem::is_directory(log_)) throw Error(name + ": is a folder, not the log of a study");
     const StudyLog log = parse_study_log(read_file(log_, kLargestStudyLog_bytes), name);
     observer.update("thresholds and worths", 0.5);
     const StudyResults results = study_results(log.session);

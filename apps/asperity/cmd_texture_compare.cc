@@ -74,12 +74,12 @@ std::string format_row(const std::string& name, const Difference& d, double unit
 class TextureCompareCommand : public Command {
  public:
   explicit TextureCompareCommand(Parser& root)
-      : Command(root, "compare", "What a hand would notice between two textures, profiles or strokes (seed §2.1)") {
+      : Command(root, "compare", "Differences between two textures, profiles or strokes that a hand would notice") {
     require(parser().add_option("A", a_, "A *.texture.json, a profile.csv, heights, or a stroke's folder"));
     require(parser().add_option("B", b_, "The other"));
-    parser().add_option("--speed", speed_, "Of the hand")->type_name("SPEED");
+    parser().add_option("--speed", speed_, "Speed of the hand")->type_name("SPEED");
     parser()
-        .add_option("--force", force_, "Of the hand, for forces in time where no stroke states it: 1N")
+        .add_option("--force", force_, "Force of the hand, for forces in time where no stroke states it; default: 1N")
         ->type_name("FORCE");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for files without positions")
@@ -146,7 +146,7 @@ class TextureCompareCommand : public Command {
   Side rendered_side(const std::string& file, const Side& other, const Observer& observer) const {
     if (!is_texture_file(file))
       throw Error(printable(file, 200) +
-                  ": heights of a file are not compared with vibrations; fit a texture to them first");
+                  ": heights of a file cannot be compared with vibrations; fit a texture to them first");
     constexpr std::size_t kPieces = 1000;  // leave 1.4 % in the lowest octave, below what is noticed
     constexpr double kPiece_s = 0.25, kRate_Hz = 8000.0;
     Side out;
@@ -174,7 +174,7 @@ class TextureCompareCommand : public Command {
     out.text =
         fmt::format("{}: {} windows of 0.25 s, {}, {}, {}\n", printable(folder, 200), out.vibration.pieces_mps2.size(),
                     mean_text(out.speed_mps, 1e3, "mm/s", "speed"), mean_text(out.force_N, 1.0, "N", "force"),
-                    !out.vibration.noise_mps2.empty()              ? "noise taken off"
+                    !out.vibration.noise_mps2.empty()              ? "noise subtracted"
                     : std::isfinite(out.vibration.most_noise_mps2) ? "noise as stated, in any of the bands"
                                                                    : "noise not known");
     return out;
@@ -231,7 +231,7 @@ class TextureCompareCommand : public Command {
       text += fmt::format(
           "{:<22} {:>11.4g} {:>11.4g} {} {} {}  {}\n", fmt::format("{:.4g}-{:.4g} Hz", band.low_Hz, band.high_Hz),
           band.a_mps2, band.b_mps2, cell("{:.2f}", band.percent, " %", 11), cell("{:.2g}", band.sigma_percent, " %", 9),
-          cell("{:.3g}", band.jnd_percent, " %", 9), band.is_compared ? word_of(band.verdict) : "too weak to be felt");
+          cell("{:.3g}", band.jnd_percent, " %", 9), band.is_compared ? word_of(band.verdict) : "below the threshold");
     }
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
@@ -245,7 +245,8 @@ class TextureCompareCommand : public Command {
     if (is_texture_file(file)) {
       const Texture texture = read_texture(file, {}, observer);
       surface.spacing_m = 1e-3 * settings_.spacing_mm;
-      if (!is_height_field(texture.model)) throw Error(file + ": a force in time, which has no spectrum over lengths");
+      if (!is_height_field(texture.model))
+        throw Error(file + ": is a force in time, which has no spectrum over lengths");
       lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
     } else {
       const Heights heights = read_heights(file, settings_.input);
@@ -277,7 +278,7 @@ class TextureCompareCommand : public Command {
     text += format_row("mean cycles/mm", c.frequency_per_mm, 1.0, "");
     for (const auto& band : c.bands) {
       text += format_row(fmt::format("{:.3g}-{:.3g} /mm, RMS µm", band.low_cycles_per_mm, band.high_cycles_per_mm),
-                         band.rms_m, 1e6, band.is_compared ? verdict_of(band.rms_m.noticeable) : "too weak to be felt");
+                         band.rms_m, 1e6, band.is_compared ? verdict_of(band.rms_m.noticeable) : "below the threshold");
     }
     say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, verdict_of(c.noticeable)));
   }

@@ -74,10 +74,10 @@ struct FitSettings {
 
   template <class V>
   void visit(V& v) {
-    v.choice("model", model, kFittedModelNames, "what the texture is");
+    v.choice("model", model, kFittedModelNames, "model of the texture");
     v.field("whole_path", whole_path, "fourier1d: the whole path as one series instead of its best window");
-    v.field("stroke_spacing_mm", stroke_spacing_mm, "areal: how far profiles lie apart, in their order; 0: not given",
-            {0.0, 1e6});
+    v.field("stroke_spacing_mm", stroke_spacing_mm,
+            "areal: distance of the profiles from each other, in their order; 0: not given", {0.0, 1e6});
   }
 };
 
@@ -120,7 +120,7 @@ SeriesTable series_of_recording(const std::string& folder) {
 class TextureFitCommand : public Command {
  public:
   explicit TextureFitCommand(Parser& root)
-      : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
+      : Command(root, "fit", "Fit a haptic texture to profiles, strokes, an areal map or another texture") {
     require(
         parser().add_option("PROFILE", files_,
                             "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
@@ -131,7 +131,7 @@ class TextureFitCommand : public Command {
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
-    parser().add_option("--name", name_, "The texture's name; the file's unless given")->type_name("TEXT");
+    parser().add_option("--name", name_, "Name of the texture; default: that of the file")->type_name("TEXT");
     parser().add_flag("--whole-path", whole_path_, "One series over the whole path");
   }
 
@@ -149,7 +149,7 @@ class TextureFitCommand : public Command {
   }
 
   int run(const Observer&) override {
-    if (!output_.ends_with(".json")) throw UsageError("-o: a texture's file is called *.texture.json");
+    if (!output_.ends_with(".json")) throw UsageError("-o: the file of a texture ends in .texture.json");
     refuse_stranger(output_, begins_as_texture, files_);
     if (files_.size() == 1) reads(files_.front());
     FittedTexture fitted = fit();
@@ -276,7 +276,7 @@ class TextureFitCommand : public Command {
       text += fmt::format(", on a held-out half: variance {:+.1f} %, spectrum {:.1f} %",
                           100.0 * error["variance_error"].get<double>(), 100.0 * error["spectrum_error"].get<double>());
     }
-    if (texture.height_offset_m) text += fmt::format(", lift {:.4g} µm", *texture.height_offset_m * 1e6);
+    if (texture.height_offset_m) text += fmt::format(", height offset {:.4g} µm", *texture.height_offset_m * 1e6);
     text += "\n";
     for (const auto& problem : fitted.problems) text += "note: " + problem.message + "\n";
     say(text);

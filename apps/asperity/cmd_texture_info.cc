@@ -14,6 +14,7 @@
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
 #include "texture_input.h"
+#include "texture_lines.h"
 
 namespace asperity::app {
 
@@ -26,7 +27,7 @@ std::string value_text(const Json& value) { return value.is_string() ? value.get
 
 class TextureInfoCommand : public Command {
  public:
-  explicit TextureInfoCommand(Parser& root) : Command(root, "info", "What a texture is and how rough") {
+  explicit TextureInfoCommand(Parser& root) : Command(root, "info", "Describe a texture and its roughness") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
   }
 
@@ -63,21 +64,17 @@ class TextureInfoCommand : public Command {
  private:
   void say_summary(const Json& out) const {
     std::string text = fmt::format("{}: {}\n", printable(value_text(out["name"])), value_text(out["model"]));
-    for (const auto& [key, value] : out["describe"].items())
-      text += fmt::format("  {:<16} {}\n", key, value_text(value));
+    for (const auto& [key, value] : out["describe"].items()) text += texture_line(key, value);
     if (out.contains("measured")) {
-      for (const char* key : {"Ra_m", "Rq_m", "Rt_m", "RSm_m"}) {
-        if (out["measured"].contains(key))
-          text += fmt::format("  {:<16} {:.4g} µm\n", std::string_view(key).substr(0, std::string_view(key).size() - 2),
-                              out["measured"][key].get<double>() * 1e6);
-      }
+      for (const char* key : {"Ra_m", "Rq_m", "Rt_m", "RSm_m"})
+        if (out["measured"].contains(key)) text += texture_line(key, out["measured"][key]);
     }
     for (const char* key :
          {"lift_m", "band_cycles_per_mm", "compliance_kc", "stiffness_N_per_m", "friction", "static_friction_ratio"}) {
-      if (out.contains(key)) text += fmt::format("  {:<16} {}\n", key, out[key].dump());
+      if (out.contains(key)) text += texture_line(key, out[key]);
     }
     if (out.contains("fit") && out["fit"].is_object() && out["fit"].contains("rms_error_m"))
-      text += fmt::format("  {:<16} {}\n", "rms_error_m", out["fit"]["rms_error_m"].dump());
+      text += texture_line("rms_error_m", out["fit"]["rms_error_m"]);
     say(text);
   }
 

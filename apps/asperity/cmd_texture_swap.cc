@@ -27,20 +27,19 @@ namespace {
 namespace fs = std::filesystem;
 class TextureSwapCommand : public Command {
  public:
-  explicit TextureSwapCommand(Parser& root)
-      : Command(root, "swap", "Lay another texture in the place of one of a scene's") {
+  explicit TextureSwapCommand(Parser& root) : Command(root, "swap", "Replace a texture of a scene by another") {
     require(parser().add_option("SCENE", scene_, "A *.scene.json"));
     require(parser().add_option("INDEX", index_, "The texture's number in the mesh's h lines"));
-    require(parser().add_option("TEXTURE", texture_, "The *.texture.json to lay there"));
+    require(parser().add_option("TEXTURE", texture_, "The new texture, a *.texture.json"));
     parser()
-        .add_option("-o,--output", output_, "The new scene, in SCENE's folder or elsewhere; SCENE itself unless given")
+        .add_option("-o,--output", output_, "File of the new scene, in any folder; default: SCENE itself")
         ->type_name("OUT.scene.json");
   }
 
   int run(const Observer& observer) override {
     const fs::path target = output_.empty() ? scene_ : output_;
     if (fs::path(scene_).extension() != ".json" || target.extension() != ".json")
-      throw UsageError("a scene's file is called *.scene.json");
+      throw UsageError("the file of a scene ends in .scene.json");
     Scene scene = read_scene(scene_, observer);
     const SceneTexture* before = scene.objects.front().find_texture(index_);
     const std::string old = before ? before->file : std::string();

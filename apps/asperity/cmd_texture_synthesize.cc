@@ -43,14 +43,16 @@ struct SynthesizeSettings {
 class TextureSynthesizeCommand : public Command {
  public:
   explicit TextureSynthesizeCommand(Parser& root)
-      : Command(root, "synthesize",
-                "Heights of a texture along a line, or a force model's accelerations (*.csv); a tile (*.png)") {
+      : Command(
+            root, "synthesize",
+            "Write heights of a texture along a line, or accelerations of a force model (*.csv), or a tile (*.png)") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
-    require(parser().add_option("-o,--output", output_, "What is written, by its ending"))
+    require(parser().add_option("-o,--output", output_, "Output file; its ending states the format"))
         ->type_name("OUT.csv|OUT.png");
-    parser().add_option("--length", length_, "Of the line, or of the tile along x")->type_name("LENGTH");
-    parser().add_option("--spacing", spacing_, "Of the line's heights")->type_name("LENGTH");
-    seed_option_ = parser().add_option("--seed", seed_, "Other phases, where they are random")->type_name("N");
+    parser().add_option("--length", length_, "Length of the line, or of the tile along x")->type_name("LENGTH");
+    parser().add_option("--spacing", spacing_, "Distance of the line's heights")->type_name("LENGTH");
+    seed_option_ =
+        parser().add_option("--seed", seed_, "Random seed of the phases, where they are random")->type_name("N");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }
@@ -84,7 +86,7 @@ class TextureSynthesizeCommand : public Command {
     } else if (output_.ends_with(".png")) {
       write_tile(texture, out);
     } else {
-      throw UsageError("-o: heights along a line are called *.csv, a tile *.png");
+      throw UsageError("-o: the file of heights ends in .csv, that of a tile in .png");
     }
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
@@ -94,7 +96,7 @@ class TextureSynthesizeCommand : public Command {
 
  private:
   void reseed(Texture& texture) {
-    if (seed_ < 0) throw UsageError("--seed: is not negative");
+    if (seed_ < 0) throw UsageError("--seed: the value must not be negative");
     settings_.stroke.seed = seed_;
     if (!reseed_texture_model(texture.model, seed_)) throw UsageError("--seed: the texture is not random");
   }

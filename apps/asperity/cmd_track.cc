@@ -50,7 +50,7 @@ std::vector<fs::path> list_images(const std::vector<std::string>& named) {
       if (is_image_name(entry->path()) && entry->is_regular_file(ignored)) inside.push_back(entry->path());
     }
     if (error) throw Error(printable(path, 200) + ": cannot be read: " + error.message());
-    if (inside.empty()) throw Error(printable(path, 200) + ": there is no image (*.png, *.jpg, *.jpeg, *.pgm)");
+    if (inside.empty()) throw Error(printable(path, 200) + ": holds no image (*.png, *.jpg, *.jpeg, *.pgm)");
     std::sort(inside.begin(), inside.end());
     out.insert(out.end(), inside.begin(), inside.end());
   }
@@ -65,15 +65,18 @@ double processor_s() {
 
 class TrackCommand : public Command {
  public:
-  explicit TrackCommand(Parser& root) : Command(root, "track", "The poses of a body of tags in a camera's images") {
+  explicit TrackCommand(Parser& root)
+      : Command(root, "track", "Find the poses of a body of tags in the images of a camera") {
     require(parser().add_option("IMAGES", images_,
                                 "Images (PNG, JPEG, PGM), or folders of them, named by their time in ns"));
     require(parser().add_option("--camera", camera_, "A calibration.json with the camera"))->type_name("FILE.json");
     require(
-        parser().add_option("--markers", markers_, "The body's tags: markers.json, or a calibration.json with them"))
+        parser().add_option("--markers", markers_, "Tags of the body: markers.json, or a calibration.json with them"))
         ->type_name("FILE.json");
-    parser().add_option("--rate", rate_Hz_, "Images a second, where their names are no times")->type_name("HZ");
-    parser().add_flag("--timing", timing_, "Tell the frames a second of one core, reading included");
+    parser()
+        .add_option("--rate", rate_Hz_, "Images per second; needed where their names are not times")
+        ->type_name("HZ");
+    parser().add_flag("--timing", timing_, "Print the images per second of one core, reading included");
     require(parser().add_option("-o,--output", output_, "The tracker.csv to write"))->type_name("FILE.csv");
   }
 

@@ -40,7 +40,7 @@ bool Command::resolve() {
   for (const std::string& setting : settings_) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos) {
-      throw UsageError("--set takes STAGE.FIELD=VALUE, not '" + printable(setting) + "'");
+      throw UsageError("--set needs STAGE.FIELD=VALUE, not '" + printable(setting) + "'");
     }
     try {
       set_field(all, trim(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
@@ -101,7 +101,7 @@ void print_error(std::string_view text) {
 void commit_output(OutputFolder& folder, std::string_view output) {
   for (const std::filesystem::path& name : folder.commit()) {
     print_error(printable(output, 200) + ": " + printable(name.string(), 200) +
-                " was put there meanwhile; it was kept");
+                " was added during the run; it was kept");
   }
 }
 

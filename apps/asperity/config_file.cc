@@ -26,12 +26,12 @@ ConfigValue value_of(const std::string& file, const toml::node& node) {
     std::vector<double> out;
     for (const toml::node& element : *list) {
       const auto number = element.value<double>();
-      if (!number) fail(file, element.source(), "only lists of numbers are used here");
+      if (!number) fail(file, element.source(), "lists may hold numbers only");
       out.push_back(*number);
     }
     return out;
   }
-  fail(file, node.source(), "dates and times are not used here");
+  fail(file, node.source(), "dates and times are not allowed");
 }
 
 void set_table(const std::string& file, const toml::table& table, const std::string& prefix,

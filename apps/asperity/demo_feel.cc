@@ -125,7 +125,7 @@ FeelDemo demonstrate_feel(const fs::path& folder, const ProcessResult& protoboar
   plot.force_N = resample_linear(knots, 0, first, count, kPlotSpacing_m, kHole_m);
   const Periodicity pattern = find_periodicity(plot.force_N, kPlotSpacing_m, PeriodicityConfig{});
 
-  plot.title = fmt::format("protoboard, felt: force of a hand that presses with 1 N at 50 mm/s; pitch {:.3f} mm",
+  plot.title = fmt::format("protoboard, rendered: force of a hand that presses with 1 N at 50 mm/s; pitch {:.3f} mm",
                            pattern.pitch_m * 1e3);
   plot.height_m = resample_linear(knots, 1, first, count, kPlotSpacing_m, kHole_m);
   plot.from_m = static_cast<double>(first) * kPlotSpacing_m;

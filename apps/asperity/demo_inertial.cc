@@ -32,7 +32,7 @@ void calibrate_the_imu(DemoRig& rig, const Recording& scan, const LiveRecording&
     metrics.push_back({kKeys[axis], kTitles[axis], "mm", 1e3, imu.accelerometer_in_marker_m[axis],
                        imu.position_error_m[axis], DemoMetric::kNone, truth_m[axis]});
   }
-  rig.add("imu", fmt::format("inertial sensor: its place on the probe, shaken live, {} poses", imu.poses), metrics);
+  rig.add("imu", fmt::format("inertial sensor: its position on the probe, shaken live, {} poses", imu.poses), metrics);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void calibrate_the_accelerometer(DemoRig& rig, const Observer& observer) {
       metrics.push_back({kGyroKeys[axis], kGyroTitles[axis], "counts", 1.0, offset->counts[axis],
                          offset->stderr_counts[axis], DemoMetric::kNone, bench.calibration.gyroscope->C[axis]});
     }
-    rig.add("gyroscope", "gyroscope at rest", metrics);
+    rig.add("gyroscope", "stationary gyroscope", metrics);
   }
 }
 

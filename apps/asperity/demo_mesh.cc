@@ -63,7 +63,7 @@ std::vector<DemoMetric> compare_scans(const Recording& recording, const ScansOnM
   const PoseError error = pose_error(result.placements.front().registration, true_T_mesh_world, scan.path.p_mesh_m);
   std::vector<DemoMetric> out;
   out.push_back({"pose_m", "pose, its points", "mm", 1e3, error.rms_m, error.sigma_m, DemoMetric::kNone, 0.0});
-  out.push_back({"turn_rad", "pose, its turn", "degrees", 1.0 / kDegree, error.rotation_rad, error.sigma_rad,
+  out.push_back({"turn_rad", "pose, its rotation", "degrees", 1.0 / kDegree, error.rotation_rad, error.sigma_rad,
                  DemoMetric::kNone, 0.0});
   const Profile truth = true_profile(*recording.truth, config.profile);
   const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
@@ -167,7 +167,7 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
                          {"stretch_max", painted.warp.stretch_max},
                          {"folded", painted.warp.folded.size()}};
   out.text += fmt::format(
-      "the protoboard's texture painted beside it\n"
+      "the protoboard's texture painted next to it\n"
       "  {} triangles along {:.1f} mm; lengths from {:.3f} to {:.3f} of the true ones, {} triangles fold\n",
       painted.warp.triangles, length_m * 1e3, painted.warp.stretch_min, painted.warp.stretch_max,
       painted.warp.folded.size());

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "asperity/base/interval_text.h"
+
 namespace asperity::app {
 
 DemoMetric rq_metric(const ProcessResult& result, double true_Rq_m) {
@@ -24,8 +26,7 @@ DemoMetric length_error_metric(const ProcessResult& result) {
 }
 
 std::string metric_line(const DemoMetric& metric) {
-  std::string measured = fmt::format("{:.4g}", metric.measured * metric.scale);
-  if (std::isfinite(metric.standard_error)) measured += fmt::format(" ± {:.2g}", metric.standard_error * metric.scale);
+  std::string measured = interval_text(metric.measured * metric.scale, metric.standard_error * metric.scale, 2, 4);
   if (std::isfinite(metric.lower_bound)) measured = fmt::format("> {:.2g}", metric.lower_bound * metric.scale);
   return fmt::format("  {:<20}{:>18} {:>12.4g}  {}\n", metric.title, measured, metric.truth * metric.scale,
                      metric.unit);

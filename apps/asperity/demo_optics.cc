@@ -84,7 +84,7 @@ void measure_the_trackers_noise(DemoRig& rig, const Observer& observer) {
     metrics.push_back({kTurnKeys[axis], kTurnTitles[axis], "mrad", 1e3, noise.sigma_rotation_rad[axis],
                        noise.sigma_rotation_error_rad[axis], DemoMetric::kNone, other.sigma_rotation_rad[axis]});
   }
-  rig.add("tracker", fmt::format("tracker at rest: {} poses (true: as many others)", poses.size()), metrics);
+  rig.add("tracker", fmt::format("stationary tracker: {} poses (true: as many others)", poses.size()), metrics);
 }
 
 }  // namespace asperity::app

@@ -81,7 +81,7 @@ std::string force_svg(const ForcePlot& plot) {
              "<text x=\"{}\" y=\"28\" font-weight=\"bold\" fill=\"#111\">{}</text>\n<g fill=\"#333\">\n",
              kLeft_px, plot.title) +
          ways_svg(plot) + range_svg(force, 1.0, "force, N") + range_svg(height, 1e3, "H, mm") +
-         fmt::format("<text x=\"{}\" y=\"288\" text-anchor=\"middle\">way of the stroke, mm</text>\n</g>\n",
+         fmt::format("<text x=\"{}\" y=\"288\" text-anchor=\"middle\">path length of the stroke, mm</text>\n</g>\n",
                      0.5 * (kLeft_px + kRight_px)) +
          line_svg(plot.force_N, force, "#1558a0") + line_svg(plot.height_m, height, "#888") + "</svg>\n";
 }

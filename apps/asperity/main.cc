@@ -22,7 +22,7 @@ namespace asperity::app {
 namespace {
 
 struct Program {
-  Parser parser{"asperity", "measures the fine surface of real objects, to be felt again"};
+  Parser parser{"asperity", "measures the fine surface of real objects and renders it to the hand"};
   bool manual = false;
   std::string completion;
   std::vector<std::unique_ptr<Command>> commands;
@@ -44,7 +44,7 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(texture));
     }
-    Parser& study = parser.add_subcommand("study", "Work out what people answered in a study of the studio");
+    Parser& study = parser.add_subcommand("study", "Evaluate the answers of a study of the studio");
     study.require_subcommand(1, 0);
     commands.push_back(make_study_summarize(study));
     Parser& markers = parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
@@ -53,8 +53,8 @@ struct Program {
          {make_markers_sheet, make_markers_ring, make_markers_board, make_markers_charuco, make_markers_detect}) {
       commands.push_back(make(markers));
     }
-    Parser& calibrate = parser.add_subcommand(
-        "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
+    Parser& calibrate =
+        parser.add_subcommand("calibrate", "Find the values of a calibration, their standard errors and a verdict");
     calibrate.require_subcommand(1, 0);
     for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
                             make_calibrate_tip, make_calibrate_imu, make_calibrate_latency}) {
@@ -102,10 +102,10 @@ int run_command(Command& command) {
 // What is printed where no command is given.
 std::string welcome() {
   return std::string("asperity ") + kVersion +
-         ": measures the fine surface of real objects, to be felt again\n\n"
-         "  asperity demo -o out     measure two simulated surfaces, and see how true the result is (seconds)\n"
-         "  asperity import --help   begin with own data: motion capture and an inertial sensor, or a table\n"
-         "  asperity studio          scan, process, align, paint and feel in a browser\n\n"
+         ": measures the fine surface of real objects and renders it to the hand\n\n"
+         "  asperity demo -o out     measure two simulated surfaces and compare them with the truth (seconds)\n"
+         "  asperity import --help   begin with your own data: motion capture and an inertial sensor, or a table\n"
+         "  asperity studio          scan, process, align, paint and render in a browser\n\n"
          "All commands: asperity --help. One of them: asperity help COMMAND.\n";
 }
 

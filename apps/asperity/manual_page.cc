@@ -84,11 +84,11 @@ std::string manual_page(const Parser& root) {
   for (const Parser* command : root.subcommands()) out += command_section(*command, command->name());
   out += ".SH EXAMPLES\n" + examples();
   out +=
-      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
-      "wrong\n";
+      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error states where\n.TP\n2\nthe command line "
+      "is wrong\n";
   out +=
-      ".TP\n3\ndone, but the result is invalid; standard error says why\n.TP\n128 + signal\nstopped by a "
-      "signal, 130 for Ctrl\\-C; standard error says what was written\n";
+      ".TP\n3\ndone, but the result is invalid; standard error states why\n.TP\n128 + signal\nstopped by a signal, 130 "
+      "for Ctrl\\-C; standard error names the files that were written\n";
   return out;
 }
 

@@ -70,9 +70,10 @@ std::string noise_svg(const StaticInterval& rest) {
       "font-size=\"13\">\n<rect width=\"900\" height=\"320\" fill=\"#fff\"/>\n",
       kNoiseSvgBegin);
   for (int axis = 0; axis < 3; ++axis) out += panel(rest, axis);
-  out +=
-      fmt::format("<text x=\"450\" y=\"311\" text-anchor=\"middle\">deviation at rest, mm; {} poses</text>\n</svg>\n",
-                  rest.deviation_m.size());
+  out += fmt::format(
+      "<text x=\"450\" y=\"311\" text-anchor=\"middle\">deviation from the mean, mm; {} poses of a static "
+      "interval</text>\n</svg>\n",
+      rest.deviation_m.size());
   return out;
 }
 

@@ -127,7 +127,7 @@ std::vector<int> counts_option(const std::string& option, const std::string& tex
 }
 
 double force_option_N(const std::string& option, const std::string& text, double most_N) {
-  if (!trim(text).ends_with('N')) throw UsageError(option + ": '" + printable(text) + "' is no force, such as 1N");
+  if (!trim(text).ends_with('N')) throw UsageError(option + ": '" + printable(text) + "' is not a force such as 1N");
   return number_option(option, text, "N", 0.0, most_N);
 }
 

@@ -96,11 +96,11 @@ std::string record_text(const RecordOutcome& outcome) {
   if (f.link.faults.any()) out += fmt::format("  sensors     {}\n", describe_faults(f.link.faults));
   if (f.gravity.measured) {
     const Eigen::Vector3d& g = f.gravity.gravity_world_mps2;
-    out += fmt::format("  gravity     ({:.3f}, {:.3f}, {:.3f}) m/s² in the world, from {} moments at rest\n", g.x(),
+    out += fmt::format("  gravity     ({:.3f}, {:.3f}, {:.3f}) m/s² in the world, from {} stationary moments\n", g.x(),
                        g.y(), g.z(), f.gravity.windows);
   }
   if (f.discarded > 0) out += fmt::format("  discarded   {} segments\n", f.discarded);
-  if (outcome.frames.written > 0) out += fmt::format("  images      {} kept\n", outcome.frames.written);
+  if (outcome.frames.written > 0) out += fmt::format("  images      {} stored\n", outcome.frames.written);
   return out;
 }
 

@@ -68,7 +68,8 @@ std::string record_line(const RecorderSnapshot& now) {
   if (std::isfinite(now.force_N))
     out += now.force_is_calibrated ? fmt::format("  {:5.2f} N", now.force_N) : fmt::format("  {:.0f}", now.force_N);
   if (now.touching) out += " touching";
-  if (!now.gravity.measured && now.poses.state == SensorState::kRunning) out += "  hold still for gravity";
+  if (!now.gravity.measured && now.poses.state == SensorState::kRunning)
+    out += "  hold the probe still to measure gravity";
   const double fill = std::max(now.probe.queue_fill, now.poses.queue_fill);
   if (fill > 0.1) out += fmt::format("  queue {:.0f} %", 100.0 * fill);
   if (now.probe.overflowed + now.poses.overflowed > 0) out += " OVERFLOWED";
@@ -94,7 +95,7 @@ void RecordStatus::print_line(const std::string& text) {
 
 void RecordStatus::print_changes(const char* what, const SensorSnapshot& now, SensorSnapshot& before) {
   if (now.lost > before.lost) print_line(fmt::format("{} lost: {}", what, printable(now.message, 300)));
-  if (now.returned > before.returned) print_line(fmt::format("{} is back", what));
+  if (now.returned > before.returned) print_line(fmt::format("{} was found again", what));
   for (const std::string& warning : now.warnings) {
     if (printed_.insert(without_digits(warning)).second) print_line(printable(warning, 300));
   }

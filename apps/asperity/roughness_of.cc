@@ -68,7 +68,7 @@ class Measurement {
     std::error_code error;
     const fs::path profile = fs::path(file_) / "profile.csv";
     if (fs::is_directory(file_, error) && !fs::exists(profile, error))
-      throw Error(printable(file_, 200) + ": a folder without a profile.csv; name the file, or a result of process");
+      throw Error(printable(file_, 200) + ": is a folder without a profile.csv; name the file, or a result of process");
     return of_heights(read_heights(fs::is_directory(file_, error) ? profile : fs::path(file_), settings_.input));
   }
 
@@ -91,12 +91,13 @@ class Measurement {
 
   void refuse_noise(const char* kind) const {
     if (settings_.noise.rms_um > 0.0)
-      throw UsageError("--noise: " + printable(file_, 200) + " is " + kind + "; the noise is stated for areal maps");
+      throw UsageError("--noise: " + printable(file_, 200) + " is " + kind + "; --noise applies to areal maps only");
   }
 
   void refuse_class() const {
     if (settings_.filters != Filters::kAsGiven)
-      throw UsageError("--class: " + printable(file_, 200) + " is an areal map; setting classes are of profiles");
+      throw UsageError("--class: " + printable(file_, 200) +
+                       " is an areal map; setting classes apply to profiles only");
   }
 
   // The cut-offs and sections that the settings come to for this profile.
@@ -122,7 +123,7 @@ class Measurement {
                                           (config.filter == ProfileFilter::kRobust ? "robust " : "") + "Gaussian"
                                     : std::string("no λc");
     if (config.lambda_c_mm > 0.0 && config.lambda_f_mm > 0.0) out += fmt::format(", λf {:g} mm", config.lambda_f_mm);
-    if (cut_mm > 0.0) out += fmt::format(", {:g} mm left out at either end", 0.5 * cut_mm);
+    if (cut_mm > 0.0) out += fmt::format(", {:g} mm left out at each end", 0.5 * cut_mm);
     out += fmt::format("; {} sections of {:.4g} mm\n", config.sections, section_mm);
     if (config.lambda_c_mm > 0.0) return out;
     return out +
@@ -133,7 +134,7 @@ class Measurement {
   }
 
   static std::string noise_line(const ArealNoise& noise) {
-    if (!noise.is_known()) return "intervals   not determined: the file does not state its noise; state it: --noise\n";
+    if (!noise.is_known()) return "intervals   not determined: the file does not state its noise; give --noise\n";
     return fmt::format("noise       {:.3g} µm RMS, {}\n", 1e6 * noise.rms_m,
                        noise.correlation_m > 0.0
                            ? fmt::format("correlated by 0.2 at {:.3g} µm", 1e6 * noise.correlation_m)

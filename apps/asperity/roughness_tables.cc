@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "asperity/base/interval_text.h"
+
 namespace asperity::app {
 
 namespace {
@@ -50,10 +52,13 @@ ShownUnit shown(ArealQuantity quantity) {
 }
 
 std::string value_text(double value, double error, const ShownUnit& unit) {
-  if (!std::isfinite(value)) return "not determined";
-  std::string out = fmt::format("{:.5g}", unit.factor * value);
-  if (std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit.factor * error);
-  return out;
+  return interval_text(unit.factor * value, unit.factor * error);
+}
+
+// The same with the value's end in one column.
+std::string aligned_interval(double value, double error) {
+  const IntervalText text = interval_parts(value, error);
+  return fmt::format("{:>12}{}{}", text.value, text.error.empty() ? "" : " ± ", text.error);
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -89,8 +94,7 @@ std::string to_table(const std::vector<PrintedParameter>& parameters) {
     const std::string name = key.substr(0, key.size() - (length ? 2 : 0));
     const double unit = length ? 1e6 : 1.0;
     out += fmt::format("{:<6} ", name);
-    out += std::isfinite(unit * value) ? fmt::format("{:12.5g}", unit * value) : "not determined";
-    if (std::isfinite(value) && std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit * error);
+    out += aligned_interval(unit * value, unit * error);
     out += length && std::isfinite(unit * value) ? " µm\n" : "\n";
   }
   return out;
@@ -149,8 +153,7 @@ std::string to_table(const ArealTextureResult& result) {
     const ShownUnit unit = shown(p.quantity);
     const double value = result.*p.value, error = result.standard_error.*p.value;
     out += fmt::format("{:<6} ", p.name);
-    out += std::isfinite(value) ? fmt::format("{:12.5g}", unit.factor * value) : "not determined";
-    if (std::isfinite(value) && std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit.factor * error);
+    out += aligned_interval(unit.factor * value, unit.factor * error);
     if (std::isfinite(value)) out += std::string(" ") + unit.name;
     while (out.back() == ' ') out.pop_back();
     out += "\n";

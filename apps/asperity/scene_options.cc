@@ -10,7 +10,7 @@ namespace asperity::app {
 
 SceneInput scene_input_of(const SceneOptions& options) {
   if (options.scene.empty() == options.height_maps.empty())
-    throw UsageError(options.scene.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
+    throw UsageError(options.scene.empty() ? "SCENE is missing" : "--height-maps replaces SCENE; give one of the two");
   SceneInput out;
   out.scene = options.scene;
   for (std::string_view rest = options.height_maps; !options.height_maps.empty();) {

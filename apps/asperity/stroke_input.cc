@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "asperity/base/error.h"
+#include "asperity/base/interval_text.h"
 #include "asperity/base/text.h"
 #include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/stroke_file.h"
@@ -58,7 +59,7 @@ SeriesTable series_of_stroke(const std::string& folder) {
   Stroke stroke = read_valid_stroke(folder);
   if (stroke.speed_mps.empty())
     throw Error(printable(folder, 200) +
-                ": its speed is not determined: no positions; state it at the import (--stroke-speed 50mm/s)");
+                ": its speed is not determined without positions; state it at the import (--stroke-speed 50mm/s)");
   if (stroke.force_N.empty())
     throw Error(printable(folder, 200) + ": its force is not determined; state it at the import (--stroke-force 1N)");
   return {std::move(stroke.acceleration_mps2), std::move(stroke.speed_mps), std::move(stroke.force_N), stroke.rate_Hz};
@@ -84,9 +85,9 @@ std::string stroke_text(const Stroke& stroke) {
                   stroke.axes == 1 ? "axis" : "axes", known_text(stroke.speed_mps, stroke.speed_is_measured),
                   known_text(stroke.force_N, stroke.force_is_measured));
   out += fmt::format("vibration   {:.3g} m/s² RMS above 40 Hz in {:.3g} s", e.active_mps2, e.active_s);
-  if (std::isfinite(e.power_ratio)) out += fmt::format(", {:.3g} m/s² in quiet", e.quiet_mps2);
+  if (std::isfinite(e.power_ratio)) out += fmt::format(", {:.3g} m/s² in the quiet part", e.quiet_mps2);
   if (std::isfinite(e.speed_exponent))
-    out += fmt::format(", its power as the speed to the {:.2g} ± {:.2g}", e.speed_exponent, e.speed_exponent_sigma);
+    out += ", its power as the speed to the " + interval_text(e.speed_exponent, e.speed_exponent_sigma);
   out += "\n";
   for (const std::string& text : stroke_unknowns(stroke)) out += "not determined: " + text + "\n";
   for (const Problem& problem : stroke.problems) out += "note        " + problem.message + "\n";
@@ -100,11 +101,11 @@ std::string stroke_heights_text(const Stroke& stroke) {
   const StrokeHeightSpectrum spectrum = stroke_height_spectrum(stroke);
   if (spectrum.octaves.empty())
     return stroke.speed_mps.empty()
-               ? "heights     not determined: no positions, so no lengths\n"
+               ? "heights     not determined: without positions lengths are not known\n"
                : "heights     not determined: the speed is never steady for a quarter of a second\n";
   std::string out =
       fmt::format("heights     as the acceleration shows them, {} windows of 0.25 s, {}\n", spectrum.windows,
-                  spectrum.noise_is_known ? "noise taken off" : "with the sensor's noise, which is not known");
+                  spectrum.noise_is_known ? "noise subtracted" : "with the sensor's noise, which is not known");
   out += fmt::format("{:>18} {:>12} {:>12} {:>12} {:>8}\n", "cycles/mm", "RMS µm", "± µm", "noise µm", "windows");
   for (const StrokeHeightBand& band : spectrum.octaves) {
     out += fmt::format("{:>18} {:>12.4g} {:>11} {:>11} {:>8}\n",

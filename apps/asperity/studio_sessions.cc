@@ -36,7 +36,7 @@ std::vector<studio::RunningStudio> chosen_studios(const StudioChoice& choice) {
 
 studio::RunningStudio chosen_studio(const StudioChoice& choice) {
   std::vector<studio::RunningStudio> found = chosen_studios(choice);
-  if (found.empty()) throw Error("none of your studios is running, or none of that folder and port");
+  if (found.empty()) throw Error("none of your studios is running for that folder and port");
   if (found.size() == 1) return std::move(found.front());
   std::string all;
   for (const studio::RunningStudio& studio : found) all += "\n  " + line_of(studio);

@@ -82,7 +82,7 @@ HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeig
   for (const std::string& file : files) {
     const Heights heights = read_heights(file, config);
     const auto* profile = std::get_if<HeightProfile>(&heights);
-    if (!profile) throw Error(file + ": an areal map, where heights along a line are needed");
+    if (!profile) throw Error(file + ": is an areal map, but heights along a line are needed");
     read.push_back(fingerprint_of(file, *profile));
     if (all.height_m.empty()) {
       all = *profile;
@@ -117,7 +117,7 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
       continue;
     }
     if (!(stroke_spacing_m > 0.0))
-      throw Error(file + ": heights along a line; how far the strokes lie apart must be given (fit.stroke_spacing_mm)");
+      throw Error(file + ": holds heights along a line; give the distance between the strokes (fit.stroke_spacing_mm)");
     const auto& profile = std::get<HeightProfile>(heights);
     read.push_back(fingerprint_of(file, profile));
     for (std::size_t i = 0; i < profile.height_m.size(); ++i) {

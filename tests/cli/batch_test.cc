@@ -83,7 +83,7 @@ TEST_F(Batch, RefusesAFolderOfOthers) {
   write_text(other / "mine.txt", "mine");
   const Outcome refused = run({"batch", *dir_ / "scans/s1/rec", "-o", other.path()});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("holds other files than a batch's"));
+  EXPECT_THAT(refused.err, HasSubstr("holds files that are not of a batch"));
   EXPECT_EQ(contents(other.path()).size(), 1U);
   EXPECT_EQ(run({"batch", *dir_ / "scans/none", "-o", *dir_ / "out"}).code, 1);
   EXPECT_EQ(run({"batch", *dir_ / "scans/s1/rec"}).code, 2) << "no folder of results is stated";
@@ -136,7 +136,7 @@ TEST_F(Batch, LeavesOtherFoldersAlone) {
   write_text(other / "summary.csv", "mine");
   const Outcome summary = run({"batch", *dir_ / "plan.toml", "-o", other.path(), "--summary"});
   EXPECT_EQ(summary.code, 1);
-  EXPECT_THAT(summary.err, HasSubstr("holds other files than a batch's"));
+  EXPECT_THAT(summary.err, HasSubstr("holds files that are not of a batch"));
   EXPECT_EQ(run({"batch", *dir_ / "plan.toml", "-o", other.path(), "--scan", "s1/rec"}).code, 1);
   EXPECT_EQ(read_file(other / "summary.csv", 100), "mine");
   EXPECT_EQ(contents(other.path()).size(), 1U);

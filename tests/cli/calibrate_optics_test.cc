@@ -196,7 +196,7 @@ TEST(CalibrateOptics, FindsTheInertialSensor) {
   write_to(dir / "still", simulate_motion(config, static_motion(shake.T_world_marker, tip_in_marker_m), 6.0, "still"));
   const Outcome refused = run({"calibrate", "imu", (dir / "still").string()});
   EXPECT_EQ(refused.code, 1);
-  EXPECT_THAT(refused.err, HasSubstr("turning it"));
+  EXPECT_THAT(refused.err, HasSubstr("rotate it"));
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(Markers, ABodysDictionaryLiesBesideIt) {
   const Outcome away =
       run({"markers", "sheet", "--family", "aruco:" + (dir / "d.yml").string(), "-o", pdf, "--markers", body});
   EXPECT_EQ(away.code, 1);
-  EXPECT_THAT(away.err, HasSubstr("does not lie beside"));
+  EXPECT_THAT(away.err, HasSubstr("is not in the folder of the body's file"));
   const Outcome beside =
       run({"markers", "sheet", "--family", "aruco:" + (dir / "body" / "d.yml").string(), "-o", pdf, "--markers", body});
   ASSERT_EQ(beside.code, 0) << beside.err;

@@ -130,6 +130,96 @@ TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
   std::filesystem::create_directory(path("strange"));
   write_text(path("strange/mine.txt"), "kept\n");
   EXPECT_EQ(run({"export", path("wave.texture.json"), "--to", "wav", "-o", path("strange")}).code, 1);
+  ASSERT_EQ(paint(path("plane.obj"), "5,7,0;35,7,0").code, 0);
+  write_text(path("out/mine.txt"), "kept\n");
+  const Outcome added = paint(path("plane.obj"), "5,7,0;35,7,0");
+  EXPECT_EQ(added.code, 1);
+  EXPECT_THAT(added.err, testing::HasSubstr("out: the file mine.txt was not written by asperity; nothing was changed"));
+  EXPECT_EQ(content_of(path("out/mine.txt")), "kept\n");
+}
+
+// Nothing of an earlier texture is covered without a word.
+TEST_F(PaintCommands, ACoveredTextureIsNamed) {
+  const Outcome first = paint(path("plane.obj"), "5,7,0;35,7,0");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(first.err, "");
+  EXPECT_TRUE(Json::parse(first.out).at("covered").empty());
+  const auto into = [&](const std::string& through, const std::string& extra = "--quiet") {
+    return run({"paint", "--into", path("out/scene.json"), "--through", through, "--texture", path("wave.texture.json"),
+                "--json", extra});
+  };
+  const Outcome across = into("20,2,0;20,18,0");
+  ASSERT_EQ(across.code, 0) << across.err;
+  const Json json = Json::parse(across.out);
+  ASSERT_EQ(json.at("covered").size(), 1U);
+  const Json& covered = json.at("covered")[0];
+  EXPECT_EQ(covered.at("index"), 1);
+  EXPECT_EQ(covered.at("file"), "wave.texture.json");
+  EXPECT_EQ(covered.at("triangles"), json.at("painted_over"));
+  EXPECT_EQ(covered.at("triangles").get<int>() + covered.at("rendered_still").get<int>(),
+            Json::parse(first.out).at("triangles").get<int>());
+  EXPECT_THAT(across.err, testing::HasSubstr("paint: texture 2 covers texture 1 (wave.texture.json) on " +
+                                             std::to_string(covered.at("triangles").get<int>()) + " triangles"));
+  EXPECT_EQ(Json::parse(content_of(path("out/paint.json"))).at("covered"), json.at("covered"));
+  // At the very same place: nothing of both is left in view.
+  const Outcome same = into("5,7,0;35,7,0");
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.err, testing::HasSubstr("no other triangle shows texture 1"));
+  const Outcome under = into("5,7,0;35,7,0", "--under");
+  ASSERT_EQ(under.code, 0) << under.err;
+  EXPECT_TRUE(Json::parse(under.out).at("covered").empty());
+  EXPECT_EQ(under.err, "");
+}
+
+// What is printed is relative to what was given, and a scene may be moved.
+TEST_F(PaintCommands, PathsAreThoseThatWereGiven) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(dir_.path());
+  const Outcome painted = run({"paint", "plane.obj", "--through", "5,7,0;35,7,0", "--texture", "wave.texture.json",
+                               "--mesh-unit", "mm", "-o", "out"});
+  const Outcome into =
+      run({"paint", "--into", "out/scene.json", "--through", "20,2,0;20,18,0", "--texture", "wave.texture.json"});
+  const Outcome exported = run({"export", "out/", "--to", "obj"});
+  const Outcome as_json = run({"export", "out", "--to", "obj", "--json"});
+  std::filesystem::current_path("out");
+  const Outcome from_inside = run({"export", ".", "--to", "stl"});
+  std::filesystem::current_path(before);
+  for (const Outcome* outcome : {&painted, &into, &exported, &as_json, &from_inside}) {
+    EXPECT_EQ(outcome->code, 0) << outcome->err;
+    EXPECT_THAT(outcome->out + outcome->err, testing::Not(testing::HasSubstr(dir_.path().string())));
+  }
+  EXPECT_THAT(into.out, testing::HasSubstr("scene in out\n"));
+  EXPECT_THAT(exported.out, testing::HasSubstr("in out-obj\n"));
+  EXPECT_EQ(Json::parse(as_json.out).at("folder"), "out-obj");
+  EXPECT_TRUE(std::filesystem::exists(path("out-stl/textured.stl")));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("out"))) {
+    if (!entry.is_regular_file()) continue;
+    EXPECT_THAT(content_of(entry.path().string()), testing::Not(testing::HasSubstr(dir_.path().string())))
+        << entry.path().string();
+  }
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::rename(path("out"), path("elsewhere/moved"));
+  EXPECT_EQ(run({"export", path("elsewhere/moved"), "--to", "gltf"}).code, 0);
+}
+
+TEST_F(PaintCommands, AnExportNamesWhatThereIsAndWhatItCanBecome) {
+  std::filesystem::create_directory(path("result"));
+  write_text(path("result/texture.json"), kTexture);
+  write_text(path("result/profile.csv"), "s_m,height_m\n0,0\n0.001,1e-6\n0.002,0\n");
+  const Outcome stl = run({"export", path("result"), "--to", "stl"});
+  EXPECT_EQ(stl.code, 1);
+  EXPECT_THAT(stl.err, testing::HasSubstr("result: stl needs a mesh, and there is none, only texture.json (fourier1d) "
+                                          "and profile.csv. It can be exported to png, wav, ahap, haps, hjif, x3p, "
+                                          "sdf, sdf-binary, gsf"));
+  EXPECT_FALSE(std::filesystem::exists(path("result-stl")));
+  const Outcome png = run({"export", path("plane.obj"), "--to", "png"});
+  EXPECT_EQ(png.code, 1);
+  EXPECT_THAT(png.err, testing::HasSubstr("plane.obj: png needs a texture, and there is none, only a mesh "
+                                          "(plane.obj). It can be exported to obj, gltf, usda, stl"));
+  const Outcome sdf = run({"export", path("wave.texture.json"), "--to", "sdf"});
+  EXPECT_EQ(sdf.code, 1);
+  EXPECT_THAT(sdf.err, testing::HasSubstr("sdf needs a profile.csv or an areal map, and there is none, only "
+                                          "wave.texture.json (fourier1d)"));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST_F(Plot, DrawsAResultInEveryFormatTheSameEachTime) {
     const Outcome ran = cli::run({"plot", at("one"), "-o", file});
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_THAT(ran.out, HasSubstr("profile, texture, spectrum, path"));
-    EXPECT_THAT(ran.out, HasSubstr("no windows of the compliance"));
+    EXPECT_THAT(ran.out, Not(HasSubstr("not drawn")));  // nobody asked for the windows of a compliance
     const std::string first = content(file);
     ASSERT_GT(first.size(), 1000U);
     EXPECT_EQ(cli::run({"plot", at("one"), "-o", file}).code, 0);  // its own file is replaced
@@ -65,6 +65,19 @@ TEST_F(Plot, DrawsAResultInEveryFormatTheSameEachTime) {
   EXPECT_THAT(svg, HasSubstr("noise floor"));
   EXPECT_THAT(svg, HasSubstr("± σ"));
   EXPECT_THAT(svg, Not(HasSubstr("INVALID")));
+}
+
+TEST_F(Plot, NamesThePanelsThatWereAskedForAndAreMissing) {
+  write_result("one", true);
+  const std::string file = at("a.svg");
+  const Outcome asked = cli::run({"plot", at("one"), "-o", file, "--parts", "profile,compliance", "--json"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_THAT(asked.out, HasSubstr("no windows of the compliance"));
+  const Outcome all = cli::run({"plot", at("one"), "-o", file, "--json"});
+  EXPECT_THAT(all.out, HasSubstr("\"missing\": []"));
+  const Outcome none = cli::run({"plot", at("one"), "-o", file, "--parts", "map"});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.err, HasSubstr("nothing to draw: no areal map"));
 }
 
 TEST_F(Plot, SaysInThePictureThatAResultIsInvalid) {

@@ -240,7 +240,8 @@ TEST_F(RegisterInto, AnInvalidPoseLeavesTheSceneAsItWas) {
   const Words words{"register", own("line.csv"), "--into", scene, "--texture", own("wave.texture.json")};
   const Outcome invalid = run(words);
   EXPECT_EQ(invalid.code, 3) << invalid.err;
-  EXPECT_THAT(invalid.err, HasSubstr("scene.json: unchanged, for the pose is invalid; --keep-invalid adds it"));
+  EXPECT_THAT(invalid.err,
+              HasSubstr("scene.json: unchanged, because the pose is invalid; --keep-invalid adds the scan"));
   EXPECT_THAT(invalid.out, Not(HasSubstr("results in")));
   EXPECT_EQ(contents(own("scene")), before);
   Words kept = words;

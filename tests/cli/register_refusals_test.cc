@@ -75,7 +75,7 @@ TEST_F(Register, AMeshInUnconnectedPartsIsRegisteredWithoutCoordinates) {
   const Outcome outcome = run({"register", path("path.csv"), path("cut.obj"), "--mesh-unit", "mm", "--guess",
                                text_of(kTruth.inverse()), "-o", path("out"), "--json"});
   ASSERT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("no haptic coordinates"));
+  EXPECT_THAT(outcome.err, HasSubstr("haptic coordinates could not be computed"));
   const json result = json::parse(outcome.out);
   EXPECT_LT((pose_of(result.at("T_mesh_world")) * (kTruth * Vector3d::Zero())).norm(), 0.2e-3);
   EXPECT_TRUE(fs::exists(dir_ / "out" / "textured.obj"));

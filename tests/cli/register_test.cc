@@ -204,6 +204,7 @@ TEST_F(Register, TwoScansGiveOneMeshTwoTexturesAndTheSameBytesAgain) {
   write_text(dir_ / "one" / "notes.txt", "mine");
   const Outcome refused = into("one");
   EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("one: the file notes.txt was not written by asperity; nothing was changed"));
   EXPECT_TRUE(fs::exists(dir_ / "one" / "notes.txt"));
 }
 

@@ -48,8 +48,12 @@ TEST_F(Report, IsWrittenBesideEachResultAndForAllTogether) {
   // A folder of before there were reports, and one with a stranger's file.
   for (const char* place : {"out", "out/rec1", "out/rec2"}) fs::remove(dir / place / "report.html");
   EXPECT_EQ(process("out").code, 0);
-  write_text(dir / "out" / "mine.txt", "");
-  EXPECT_EQ(process("out").code, 1);
+  write_text(dir / "out" / "rec1" / "mine.txt", "");
+  const Outcome refused = process("out");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("out: the file rec1/mine.txt was not written by asperity; nothing was changed. "
+                                     "Move this file elsewhere, or choose another output folder"));
+  EXPECT_TRUE(fs::exists(dir / "out" / "rec1" / "mine.txt"));
 }
 
 TEST_F(Report, IsMadeAnewFromTheFiles) {

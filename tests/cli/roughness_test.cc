@@ -93,7 +93,7 @@ TEST(Roughness, OfAnArealMap) {
   write_text(profile, "0\n1\n0\n1\n");
   const Outcome of_profile = run({"roughness", profile, "--spacing", "1um", "--noise", "100nm"});
   EXPECT_EQ(of_profile.code, 2);
-  EXPECT_THAT(of_profile.err, HasSubstr("is a profile; the noise is stated for areal maps"));
+  EXPECT_THAT(of_profile.err, HasSubstr("is a profile; --noise applies to areal maps only"));
   const Outcome filtered = run({"roughness", file, "--class", "auto"});
   EXPECT_EQ(filtered.code, 2) << "it has no effect on an areal map";
   EXPECT_THAT(filtered.err, HasSubstr("is an areal map"));

@@ -73,7 +73,7 @@ TEST(Segments, AreProcessedEachForItself) {
   EXPECT_EQ(contents(dir / "out").front().second, profile);
   const Outcome none = run({"process", (dir / "two").string(), "--segment", "x", "-o", (dir / "out").string()});
   EXPECT_EQ(none.code, 1);
-  EXPECT_THAT(none.err, HasSubstr("there are: contact_1"));
+  EXPECT_THAT(none.err, HasSubstr("its segments: contact_1"));
   // Beside another recording: OUT/NAME/SEGMENT/.
   ASSERT_EQ(run({"process", (dir / "two").string(), (dir / "one").string(), "-o", (dir / "both").string()}).code, 0);
   EXPECT_TRUE(fs::exists(dir / "both" / "two" / "contact_1" / "profile.csv"));

@@ -99,8 +99,8 @@ TEST_F(ImportStroke, OfOneColumnHasNoLengths) {
                     "ax=#1[g]", "--imu-rate", "10000", "-o",          file("stroke")};
   const Outcome imported = run(words);
   EXPECT_EQ(imported.code, 0) << imported.err;
-  EXPECT_THAT(imported.out, HasSubstr("not determined: no positions, so no lengths"));
-  EXPECT_THAT(imported.out, HasSubstr("limited: no force was measured"));
+  EXPECT_THAT(imported.out, HasSubstr("not determined: without positions lengths are not known"));
+  EXPECT_THAT(imported.out, HasSubstr("limited: force was not measured"));
   const Outcome fit = run({"texture", "fit", file("stroke"), "-o", file("x.texture.json")});
   EXPECT_EQ(fit.code, 1);
   EXPECT_THAT(fit.err, HasSubstr("its speed is not determined"));

@@ -74,6 +74,17 @@ TEST_F(TextureCommands, EveryModelOfHeightsIsFittedAndDescribed) {
     const Json info = done({"texture", "info", path("x.texture.json")});
     EXPECT_EQ(info["model"], model);
     EXPECT_EQ(info["fit"], fit["fit"]);
+    // For a person: labels with units, none of the keys.
+    const Outcome shown = run({"texture", "info", path("x.texture.json")});
+    const std::string table = shown.out.substr(shown.out.find('\n'));
+    EXPECT_EQ(table.find('_'), std::string::npos) << table;
+    EXPECT_EQ(table.find('"'), std::string::npos) << table;
+    EXPECT_EQ(table.find('['), std::string::npos) << table;
+    if (model == "fourier1d") {
+      EXPECT_THAT(table, HasSubstr("\n  Length                 10 mm\n"));
+      EXPECT_THAT(table, HasSubstr("\n  Height offset          20"));
+      EXPECT_THAT(table, HasSubstr("cycles/mm\n"));
+    }
     if (model == "fourier1d" || model == "areal") {
       // A grid of ten points a pitch, held smooth and turned back at its borders, loses a little of the wave.
       const double lost = model == "areal" ? 0.03 : 0.01;

@@ -6,6 +6,7 @@
 
 #include "arrays.h"
 #include "asperity/base/config.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/result_json.h"
@@ -39,7 +40,7 @@ std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, cons
 
 void write(const Result& of, const std::filesystem::path& folder) {
   const py::gil_scoped_release unlocked;
-  OutputFolder out(folder, is_result_folder);
+  OutputFolder out(folder, naming_added(is_result_folder));
   write_result(out.path(), of.result, *of.recording, of.name);
   out.commit();
 }

@@ -141,7 +141,9 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   std::error_code ignored;
   const fs::file_status status = fs::status(target_, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(target_.string() + ": cannot be written: it exists and is no file that could be replaced");
+    throw Error(
+        target_.string() +
+        ": cannot be written: it exists and is not a regular file, so that it cannot be replaced; choose another name");
   }
   temporary_ = make_beside(target_, "written", [this](const fs::path& name) {
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -193,7 +195,8 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
   if (fs::exists(target_, error)) {
     if (!fs::is_directory(target_)) throw Error(target_.string() + ": exists and is not a folder");
     if (!fs::is_empty(target_) && !is_ours(target_)) {
-      throw Error(target_.string() + ": exists and was not written by asperity; nothing was changed");
+      throw Error(target_.string() +
+                  ": exists and was not written by asperity; nothing was changed. Choose another output folder");
     }
     known_ = names_in(target_, error);
   }

@@ -47,7 +47,7 @@ class PlanReader {
       } else if (mesh != nullptr && inner.str() == "mesh") {
         *mesh = text(value, whole);
       } else {
-        fail(value, "there is no " + printable(whole) + " in a plan");
+        fail(value, "a plan has no " + printable(whole));
       }
     }
     if (mesh != nullptr && mesh->empty()) fail(node, key + ".mesh is missing");
@@ -102,7 +102,7 @@ BatchPlan parse_batch_plan(std::string_view text, const std::string& name) {
       } else if (word == "roughness") {
         out.roughness = reader.step(node, "roughness");
       } else {
-        reader.fail(node, "there is no " + printable(word) + " in a plan");
+        reader.fail(node, "a plan has no " + printable(word));
       }
     }
   } catch (const toml::parse_error& error) {

@@ -114,7 +114,7 @@ std::vector<BatchScan> find_scans(const fs::path& folder, const std::vector<std:
   for (const BatchScan& scan : out) {
     for (std::size_t slash = scan.name.find('/'); slash != std::string::npos; slash = scan.name.find('/', slash + 1)) {
       if (names.contains(scan.name.substr(0, slash)))
-        throw Error("the recording '" + printable(scan.name) + "' lies inside another one of the batch");
+        throw Error("the recording '" + printable(scan.name) + "' is inside another recording of the batch");
     }
     if (!files.insert(flat_name(scan.name)).second)
       throw Error("two recordings would be called '" + printable(flat_name(scan.name)) + "'");

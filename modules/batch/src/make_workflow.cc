@@ -72,7 +72,7 @@ rule all:
         os.path.join(OUTPUT, "summary.csv")
 
 
-# Exit code 3 is a result that is not to be trusted: the summary says so.
+# Exit code 3 is an invalid result: the summary states it.
 # batch.json is not an output, as Snakemake removes those: it has what was done and why a scan failed.
 rule scan:
     input:
@@ -116,15 +116,15 @@ default-resources: ["mem_mb=1500", "runtime=30"]
 
 constexpr const char* kSlurmStatus = R"(#!/bin/sh
 # Prints "running", "success" or "failed" for the Slurm job $1, by scontrol: no accounting is needed. A job that scontrol
-# knows no more has ended a while ago; Snakemake looks for its files. A scontrol that does not answer is asked again.
-if ! told=$(scontrol show job "$1" 2>&1); then
-  case $told in
+# does not know any more has ended; Snakemake looks for its files. If scontrol does not answer, it is asked again.
+if ! answer=$(scontrol show job "$1" 2>&1); then
+  case $answer in
     *"Invalid job id"*) echo success ;;
     *) echo running ;;
   esac
   exit 0
 fi
-state=$(printf '%s\n' "$told" | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -n 1)
+state=$(printf '%s\n' "$answer" | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -n 1)
 case $state in
   COMPLETED) echo success ;;
   PENDING | RUNNING | CONFIGURING | COMPLETING | SUSPENDED | REQUEUED | RESIZING | STAGE_OUT) echo running ;;
@@ -185,7 +185,7 @@ std::vector<WorkflowFile> make_make_workflow(const WorkflowInput& input) {
       for_make(input.program) + "\n" + "BATCH = cd " + for_make(input.folder_from_it) + " && $(ASPERITY) batch " +
       for_make(input.plan_file) + " -o " + for_make(input.output) + " --quiet\n" + "COMMON =" + common + "\n\n" +
       ".PHONY: all summary\n\n"
-      "# Exit code 3 is a result that is not to be trusted: the summary says so.\n";
+      "# Exit code 3 is an invalid result: the summary states it.\n";
   std::string records, rules;
   for (const BatchScan& scan : input.scans) {
     const std::string record = from_here((scan_folder(input.output, scan) / "batch.done").string());

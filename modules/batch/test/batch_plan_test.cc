@@ -46,7 +46,7 @@ std::string fault_of(const std::string& text) {
 }
 
 TEST(BatchPlan, FaultsNameTheFileAndTheLine) {
-  EXPECT_EQ(fault_of("recordings = [\"a\"]\nspeed = 3\n"), "plan.toml:2: there is no speed in a plan");
+  EXPECT_EQ(fault_of("recordings = [\"a\"]\nspeed = 3\n"), "plan.toml:2: a plan has no speed");
   EXPECT_EQ(fault_of("recordings = \"a\"\n"), "plan.toml:1: recordings must be a list of texts");
   EXPECT_EQ(fault_of("recordings = [\"a\", 3]\n"), "plan.toml:1: recordings must be a text");
   EXPECT_EQ(fault_of("output = \"a\"\n"), "plan.toml: recordings is missing or empty");
@@ -55,8 +55,7 @@ TEST(BatchPlan, FaultsNameTheFileAndTheLine) {
   EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\noptions = [\"-oout\"]\n"),
             "plan.toml:3: '-oout' is set by batch itself");
   EXPECT_EQ(fault_of("recordings = [\"a\"]\n[register]\noptions = []\n"), "plan.toml:2: register.mesh is missing");
-  EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\nmesh = \"m\"\n"),
-            "plan.toml:3: there is no process.mesh in a plan");
+  EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\nmesh = \"m\"\n"), "plan.toml:3: a plan has no process.mesh");
   EXPECT_EQ(fault_of("recordings = [").substr(0, 12), "plan.toml:1:");
 }
 

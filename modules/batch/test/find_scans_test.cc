@@ -70,7 +70,7 @@ TEST_F(FindScans, WhatIsNotThereIsNamed) {
   EXPECT_EQ(fault({"x*"}), "no recording matches 'x*'");
   EXPECT_EQ(fault({"b"}), "b: not a recording: recording.json is missing");
   add("a/rec/inner");
-  EXPECT_EQ(fault({"**"}), "the recording 'rec/inner' lies inside another one of the batch");
+  EXPECT_EQ(fault({"**"}), "the recording 'rec/inner' is inside another recording of the batch");
 }
 
 TEST_F(FindScans, TwoThatWouldShareAFileAreRefused) {

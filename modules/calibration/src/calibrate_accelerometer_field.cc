@@ -22,7 +22,7 @@ constexpr char kAxis[3] = {'i', 'j', 'k'};
 constexpr int kParameters = 9;
 // Half the angle between neighbouring faces and corners of a cube: a pose nearer than this covers a direction.
 constexpr double kNear = 0.7;
-// Above this share of gravity the readings lie on no ellipsoid: poses alike differ by noise only.
+// Above this share of gravity the readings do not fit an ellipsoid: poses alike differ by noise only.
 constexpr double kNoEllipsoid = 0.1;
 
 // "i up, k down": the directions along the sensor's axes near which there is no pose.
@@ -46,7 +46,7 @@ constexpr const char* kHowToHold =
                                     const std::string& why) {
   const std::string missing = missing_directions(counts, centre);
   throw Error(fmt::format("{}: {} poses were found, but {}. {}", why, counts.size(),
-                          missing.empty() ? "too few of them lie between the axes" : "none is near " + missing,
+                          missing.empty() ? "too few of them are between the axes" : "none is near " + missing,
                           kHowToHold));
 }
 
@@ -183,13 +183,15 @@ CalibrationVerdict judge_field(const AccelerometerFieldResult& result, const Acc
   const double residual_mps2 = result.residual_counts / result.scale_counts_per_mps2.mean();
   CalibrationVerdict out;
   out.text = fmt::format(
-      "{} poses lie on one ellipsoid to {:.2g} m/s²; scale is known to {:.2g} %, bias to {:.2g} "
-      "m/s². Gravity says nothing of the sensor's rotation to the marker.",
+      "{} poses fit one ellipsoid to {:.2g} m/s²; scale is known to {:.2g} %, bias to {:.2g} m/s². Gravity does not "
+      "determine the sensor's rotation to the marker.",
       result.used, result.rms_mps2, 100.0 * scale_share, bias_share * g);
   if (!(residual_mps2 <= config.residual_share * g)) {
-    out.add("gravity_missed", fmt::format("the poses miss gravity by {:.2g} m/s² each: the probe was not still, or its "
-                                          "readings bend",
-                                          residual_mps2));
+    out.add(
+        "gravity_missed",
+        fmt::format(
+            "the poses miss gravity by {:.2g} m/s² each: the probe was not still, or the accelerometer is not linear",
+            residual_mps2));
   }
   const double angle_rad = result.misalignment_stderr_rad.maxCoeff();
   if (!(std::max({scale_share, bias_share, angle_rad}) <= config.uncertainty_share)) {
@@ -212,8 +214,8 @@ AccelerometerFieldResult calibrate_accelerometer_field(const AccelerometerSample
   const StaticPoses found = find_static_poses(samples, config.poses);
   if (found.poses.size() < static_cast<std::size_t>(config.fewest_poses)) {
     throw Error(
-        fmt::format("{} static poses were found, {} are needed: hold the probe still for two seconds each in a "
-                    "few dozen directions, every side up once, and turn it briskly between",
+        fmt::format("{} static poses were found, {} are needed: hold the probe still for two seconds each in a few "
+                    "dozen directions, each side up once, and rotate it quickly between them",
                     found.poses.size(), config.fewest_poses));
   }
   std::vector<Eigen::Vector3d> counts;
@@ -235,7 +237,7 @@ AccelerometerFieldResult calibrate_accelerometer_field(const AccelerometerSample
     refuse_directions(counts, fit.ellipsoid.C, "the poses do not determine the calibration");
   }
   if (!(out.residual_counts <= kNoEllipsoid * g * B.norm() / std::sqrt(3.0))) {
-    refuse_directions(counts, fit.ellipsoid.C, "the readings lie on no ellipsoid");
+    refuse_directions(counts, fit.ellipsoid.C, "the readings do not fit an ellipsoid");
   }
 
   out.accelerometer.model = AccelerometerModel::kLinear;

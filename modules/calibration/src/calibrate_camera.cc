@@ -163,7 +163,7 @@ CalibrationVerdict judge_camera(const CameraFit& fit, const CameraFitConfig& con
   const double share = std::max(fit.standard_error[0] / fit.camera.fx, fit.standard_error[1] / fit.camera.fy);
   CalibrationVerdict verdict;
   verdict.text = fmt::format("focal length to {:.2f} %, corners within {:.2f} px RMS;{}.", 100.0 * share, fit.rms_px,
-                             fit.k3_free ? " k3 was fitted: the distortion asks for it" : " k3 is held at 0");
+                             fit.k3_free ? " k3 was fitted: the distortion requires it" : " k3 is held at 0");
   if (!fit.converged) verdict.add("camera_not_converged", "the fit did not converge");
   if (fit.rms_px > config.good_rms_px) {
     verdict.add("camera_misfit", fmt::format("the corners miss the model by {:.2f} px", fit.rms_px));
@@ -173,7 +173,7 @@ CalibrationVerdict judge_camera(const CameraFit& fit, const CameraFitConfig& con
   }
   if (fit.coverage < config.good_coverage) {
     verdict.add("board_coverage",
-                fmt::format("the board covered {:.0f} % of the image only: outside, the distortion is a guess",
+                fmt::format("the board covered {:.0f} % of the image only: outside, the distortion is extrapolated",
                             100.0 * fit.coverage));
   }
   if (fit.errors_scaled) {

@@ -20,9 +20,8 @@ namespace {
 using P = ImuParameters;
 
 constexpr const char* kImuAdvice =
-    "move the probe in the air in front of the camera for 20 s, turning it by some 30° about all its axes, two or "
-    "three "
-    "times a second, irregularly";
+    "move the probe in the air in front of the camera for 20 s, and rotate it irregularly by some 30° about all its "
+    "axes, two or three times a second";
 
 // Means over so many samples in a row that they come at most at `fastest_Hz`.
 SensorSeries thinned(const SensorSeries& sensor, double fastest_Hz) {
@@ -171,9 +170,8 @@ std::string open_direction(const PoseSeries& poses) {
   if (!(rms_rad[1] < kOpen_share * rms_rad[2])) return {};
   const double degree = 180.0 / std::numbers::pi;
   return fmt::format(
-      "the motion leaves the accelerometer's position along {} of the marker open: the probe was rotated about that "
-      "axis "
-      "almost alone, by {:.1f}° RMS, and by {:.1f}° across it: ",
+      "the motion does not determine the accelerometer's position along {} of the marker: the probe was rotated almost "
+      "only about that axis, by {:.1f}° RMS, and by {:.1f}° across it: ",
       direction_text(eigen.eigenvectors().col(2)), degree * rms_rad[2], degree * rms_rad[1]);
 }
 
@@ -230,13 +228,13 @@ ImuCalibration calibrate_imu(const Recording& recording, const ImuConfig& config
   out.duration_s = end_s - begin_s;
   if (dropped > 0) {
     out.problems.push_back(
-        {"tracker_outlier", fmt::format("{} poses lie far off the motion and were left out", dropped), dropped});
+        {"tracker_outlier", fmt::format("{} poses are far from the motion and were left out", dropped), dropped});
   }
   const double worst_m = std::sqrt(out.worst_direction.dot(out.position_covariance_m2 * out.worst_direction));
   if (!(worst_m <= config.largest_position_error_m)) {
     throw Error(fmt::format(
-        "calibrate imu: the motion does not tell where the accelerometer is along {} of the marker (± {:.1f} mm): the "
-        "probe was hardly turned about the axes across it ({:.1f}° RMS in all): {}",
+        "calibrate imu: the motion does not determine the position of the accelerometer along {} of the marker (± "
+        "{:.1f} mm). The probe was hardly rotated about the axes across it ({:.1f}° RMS in all): {}",
         direction_text(out.worst_direction), 1e3 * worst_m, 57.29577951308232 * out.turn_rms_rad, kImuAdvice));
   }
   const Eigen::Vector3d& at = out.accelerometer_in_marker_m;
@@ -248,8 +246,8 @@ ImuCalibration calibrate_imu(const Recording& recording, const ImuConfig& config
   if (worst_m > config.good_position_error_m) {
     out.verdict.add(
         "imu_place_uncertain",
-        fmt::format("its place along {} of the marker is known to {:.1f} mm only: the probe was turned by "
-                    "{:.1f}° RMS in all, too little about the axes across it",
+        fmt::format("the position of the accelerometer along {} of the marker is known to {:.1f} mm only: the probe "
+                    "was rotated by {:.1f}° RMS in all, too little about the axes across it",
                     direction_text(out.worst_direction), 1e3 * worst_m, 57.29577951308232 * out.turn_rms_rad));
   }
   if (out.rotation_error_rad.maxCoeff() > config.good_rotation_error_rad) {

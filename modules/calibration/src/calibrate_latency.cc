@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 constexpr const char* kAdvice =
-    "shake the probe for 20 s in front of the camera, turning it about all axes, irregularly, two or three times a "
+    "shake the probe for 20 s in front of the camera, and rotate it irregularly about all axes, two or three times a "
     "second";
 
 void refuse_scan(const LatencyScan& scan, const LatencyConfig& config, const char* sensor) {
@@ -69,7 +69,7 @@ LatencyEstimate estimate_robustly(Model& model, PoseSeries& poses, const Latency
     if (round == 0) out.problems.push_back({"tracker_outlier", "", 0});
     out.problems.back().count += dropped;
     out.problems.back().message =
-        fmt::format("{} poses lie far off the sensor's prediction and were left out", out.problems.back().count);
+        fmt::format("{} poses are far from the sensor's prediction and were left out", out.problems.back().count);
     estimate = estimate_latency(model);
   }
   return estimate;
@@ -164,7 +164,7 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
   out.by_gyroscope = false;
   if (flips > 0) {
     out.problems.push_back({"tracker_outlier",
-                            fmt::format("{} poses are turned far off their neighbours and were left out", flips),
+                            fmt::format("{} poses are rotated far from their neighbours and were left out", flips),
                             flips});
   }
   out.rotation_solved = config.solve_rotation || !recording.calibration.accelerometer.rotation_known;
@@ -196,7 +196,7 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
 void judge_latency(const LatencyConfig& config, LatencyFit& out) {
   if (!(out.latency_error_s <= config.largest_error_s)) {
     throw Error(fmt::format(
-        "calibrate latency: the motion is too weak ({:.2g} {} RMS): {:.1f} ± {:.1f} ms is all it says: {}", out.motion,
+        "calibrate latency: the motion is too weak ({:.2g} {} RMS) for more than {:.1f} ± {:.1f} ms: {}", out.motion,
         out.by_gyroscope ? "rad/s" : "m/s²", 1e3 * out.latency_s, 1e3 * out.latency_error_s, kAdvice));
   }
   out.verdict.text =

@@ -22,7 +22,7 @@ constexpr std::size_t kFewestTurned = 12;
 // The median of the length of a normal vector with three components of deviation one.
 constexpr double kMedianLength = 1.5382;
 constexpr const char* kHowToSwing =
-    "stand the tip in a dimple and swing the probe for half a minute, 30° to all sides, without letting it slip";
+    "hold the tip in a dimple and swing the probe for half a minute, 30° to all sides, without letting the tip slip";
 
 PivotPoses poses_of(const TrackerStream& stream, const TrackerCalibration& tracker) {
   if (stream.size() < kFewestPoses) {
@@ -53,7 +53,7 @@ std::vector<std::size_t> rotated_poses(const TrackerStream& stream, const Tracke
     if (last.angularDistance(stream.T_world_marker[i].rotation) > turn_rad) out.push_back(i);
   }
   if (out.size() < kFewestTurned) {
-    throw Error(fmt::format("the probe hardly turned in the {} poses: {}", stream.size(), kHowToSwing));
+    throw Error(fmt::format("the probe hardly rotated in the {} poses: {}", stream.size(), kHowToSwing));
   }
   return out;
 }
@@ -170,28 +170,29 @@ void check_swing(const PivotPoses& poses, const std::vector<RowRun>& runs, const
       "the swing does not determine the tip along the marker's direction ({:.2f}, {:.2f}, {:.2f}), nearly its {} axis: "
       "the probe {} (spread {:.3f} rad, {:.3f} is needed); {}",
       out.worst_direction.x(), out.worst_direction.y(), out.worst_direction.z(), "xyz"[axis],
-      one_axis ? "was turned about one axis only" : "was turned too little", out.spread,
+      one_axis ? "was rotated about one axis only" : "was rotated too little", out.spread,
       std::max(config.least_spread, 5.0 * tracker.sigma_rotation_rad.norm()), kHowToSwing));
 }
 
 void judge_tip(TipCalibration& tip, const CalibrateTipConfig& config) {
   const double error_m = tip.stderr_m.maxCoeff();
   tip.verdict.text = fmt::format(
-      "The tip stays within {:.2g} mm (RMS) of one point over {} poses, and its place on the "
-      "probe is known to {:.2g} mm.",
+      "The tip stays within {:.2g} mm (RMS) of one point over {} poses, and its position on the probe is known to "
+      "{:.2g} mm.",
       1e3 * tip.rms_m, tip.used, 1e3 * error_m);
   if (!(tip.noise_ratio <= config.residual_ratio)) {
-    tip.verdict.add("tip_slid", fmt::format("the tip misses the dimple by {:.2g} mm, {:.1f} times what the tracker's "
-                                            "noise allows: it slid, the marker is loose, or the tracker's noise is "
-                                            "stated too small",
-                                            1e3 * tip.rms_m, tip.noise_ratio));
+    tip.verdict.add("tip_slid",
+                    fmt::format("the tip misses the dimple by {:.2g} mm, {:.1f} times what the tracker's noise allows: "
+                                "it slid, the marker is loose, or the stated noise of the tracker is too small",
+                                1e3 * tip.rms_m, tip.noise_ratio));
   }
   if (!(error_m <= config.uncertainty_m)) {
     tip.verdict.add("tip_uncertain", fmt::format("the tip is known to {:.2g} mm only", 1e3 * error_m));
   }
   const double share = static_cast<double>(tip.used) / static_cast<double>(tip.poses);
   if (!(share >= config.least_share)) {
-    tip.verdict.add("little_in_dimple", fmt::format("only {:.0f} % of the poses stand in one dimple", 100.0 * share));
+    tip.verdict.add("little_in_dimple",
+                    fmt::format("only {:.0f} % of the poses have the tip in one dimple", 100.0 * share));
   }
 }
 
@@ -216,7 +217,7 @@ TipCalibration calibrate_tip(const TrackerStream& stream, const TrackerCalibrati
     const double edge = config.slip_sigmas * ratio * (round == 0 ? 1.5 : 1.0);
     const std::vector<RowRun> next = stretches_inside(pivot, poses, stream, tracker, edge, config);
     if (rows_of(next) < kFewestPoses) {
-      throw Error(fmt::format("no {} poses stand in one dimple: {}", kFewestPoses, kHowToSwing));
+      throw Error(fmt::format("fewer than {} poses have the tip in one dimple: {}", kFewestPoses, kHowToSwing));
     }
     const bool same = next.size() == runs.size() && rows_of(next) == rows_of(runs);
     runs = next;

@@ -176,14 +176,15 @@ void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
   constexpr std::size_t kFewest = 4;
   if (across.size() < kFewest) {
     out.no_model_because = fmt::format(
-        "usable rests seen from the camera: {}, {} are needed: record the probe clamped at "
-        "several distances and tilts",
+        "{} usable static intervals with a camera, {} are needed: record the clamped probe at several distances and "
+        "tilts",
         across.size(), kFewest);
     return;
   }
   if (!(model.farthest_m >= config.least_distance_ratio * model.nearest_m)) {
-    out.no_model_because = fmt::format("all rests were {:.0f} to {:.0f} mm away: record some nearer or farther",
-                                       1e3 * model.nearest_m, 1e3 * model.farthest_m);
+    out.no_model_because =
+        fmt::format("all static intervals were {:.0f} to {:.0f} mm away: record some nearer or farther",
+                    1e3 * model.nearest_m, 1e3 * model.farthest_m);
     return;
   }
   constexpr double kBroadside_rad = 1.5;  // beyond, no tag is seen and the cosine says nothing
@@ -219,11 +220,12 @@ void judge_tracker_noise(TrackerNoise& out) {
   out.moving = (out.slow_position_m.array() > out.sigma_position_m.array()).any() ||
                (out.slow_rotation_rad.array() > out.sigma_rotation_rad.array()).any();
   const Eigen::Vector3d s = 1e3 * out.sigma_position_m;
-  out.verdict.text = fmt::format("white noise of {:.3g}, {:.3g}, {:.3g} mm along x, y, z over {} rest{}.", s.x(), s.y(),
-                                 s.z(), out.rests.size(), out.rests.size() == 1 ? "" : "s");
+  out.verdict.text = fmt::format("white noise of {:.3g}, {:.3g}, {:.3g} mm along x, y, z over {} static interval{}.",
+                                 s.x(), s.y(), s.z(), out.rests.size(), out.rests.size() == 1 ? "" : "s");
   if (!(out.sigma_position_m.minCoeff() > 0.0) || !(out.sigma_rotation_rad.minCoeff() > 0.0)) {
     out.verdict.text.clear();
-    out.verdict.add("no_noise", "a coordinate did not change at all over a rest: these are no measured poses");
+    out.verdict.add("no_noise",
+                    "a coordinate did not change at all over a static interval: these poses were not measured");
     return;
   }
   if (out.gaussian) {
@@ -236,14 +238,12 @@ void judge_tracker_noise(TrackerNoise& out) {
                     worst_name, worst->skewness, worst->excess_kurtosis));
   }
   if (out.moving) {
-    out.verdict.add(
-        "body_moved",
-        fmt::format("the body moved: a slow part of {:.2g} mm and {:.2g} rad, more than the noise (a hand's "
-                    "jitter, light that changes); the white part stands",
-                    1e3 * out.slow_position_m.maxCoeff(), out.slow_rotation_rad.maxCoeff()));
+    out.verdict.add("body_moved", fmt::format("the body moved: drift of {:.2g} mm and {:.2g} rad, more than the noise "
+                                              "(a hand's tremor, changing light); the white noise is valid",
+                                              1e3 * out.slow_position_m.maxCoeff(), out.slow_rotation_rad.maxCoeff()));
   } else if (out.slow_position_m.norm() > 0.0 || out.slow_rotation_rad.norm() > 0.0) {
     out.verdict.text +=
-        fmt::format(" A slow part of {:.2g} mm is not in these figures.", 1e3 * out.slow_position_m.maxCoeff());
+        fmt::format(" Drift of {:.2g} mm is not in these values.", 1e3 * out.slow_position_m.maxCoeff());
   }
 }
 
@@ -266,10 +266,11 @@ TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, 
       out.rests.push_back(measure_static_interval(recording, range, config));
       const StaticInterval& rest = out.rests.back();
       if (rest.outliers == 0) continue;
-      out.problems.push_back({"tracker_outlier",
-                              fmt::format("{}: {} of {} poses at rest lie far off the others and were left out",
-                                          printable(recording.name), rest.outliers, range.last - range.first),
-                              rest.outliers});
+      out.problems.push_back(
+          {"tracker_outlier",
+           fmt::format("{}: {} of {} poses of a static interval are far from the others and were left out",
+                       printable(recording.name), rest.outliers, range.last - range.first),
+           rest.outliers});
     }
   }
   if (out.rests.empty()) {
@@ -277,14 +278,14 @@ TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, 
     if (rested.moved_m > 0.0 || rested.rotated_rad > 0.0) {
       constexpr double kMilli = 1e3;
       why = fmt::format(
-          "it stayed for {:.3g} s at most, then it was {:.2g} mm and {:.2g} mrad away, where {:.3g} mm and "
-          "{:.3g} mrad are a rest: a probe in a hand does not rest",
+          "it was stationary for {:.3g} s at most, then it was {:.2g} mm and {:.2g} mrad away, where {:.3g} mm and "
+          "{:.3g} mrad are allowed; a probe in a hand is not stationary",
           rested.length_s, kMilli * rested.moved_m, kMilli * rested.rotated_rad, kMilli * config.rest_position_m,
           kMilli * config.rest_rotation_rad);
     }
     throw Error(
-        fmt::format("calibrate tracker: the marker never rested for {:.3g} s with {} poses ({}): clamp the probe in "
-                    "front of the camera and record half a minute, then at other distances and tilts",
+        fmt::format("calibrate tracker: the marker was never stationary for {:.3g} s with {} poses ({}): clamp the "
+                    "probe in front of the camera and record half a minute, then at other distances and tilts",
                     config.least_rest_s, config.least_poses, why));
   }
   pool_intervals(out.rests, &StaticInterval::position_m, out.sigma_position_m, out.sigma_position_error_m,

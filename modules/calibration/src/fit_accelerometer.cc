@@ -150,7 +150,7 @@ void choose_model(AccelerometerFit& out, const FitAccelerometerConfig& config) {
     if (out.models[m].bic < out.models[out.chosen].bic) out.chosen = m;
   }
   const AccelerometerModelFit& best = out.models[out.chosen];
-  out.reason = fmt::format("{} has the least Schwarz criterion; its residual is {:.3g} counts", name_of(best),
+  out.reason = fmt::format("{} has the lowest Schwarz criterion; its residual is {:.3g} counts", name_of(best),
                            best.accelerometer.residual_counts.mean());
   for (std::size_t m = 0; m < out.models.size(); ++m) {
     if (m == out.chosen) continue;
@@ -179,8 +179,8 @@ void judge_accelerometer(AccelerometerFit& fit, double force_mps2, bool correlat
                                                            100.0 * std::max(slope_share, offset_share)));
   }
   if (chosen.degrees_of_freedom < 4) {
-    fit.verdict.add("too_few_poses",
-                    fmt::format("{} degrees of freedom are too few to believe the errors", chosen.degrees_of_freedom));
+    fit.verdict.add("too_few_poses", fmt::format("{} degrees of freedom are too few for valid standard errors",
+                                                 chosen.degrees_of_freedom));
   }
   if (correlated) {
     fit.verdict.add("neighbours_alike",

@@ -137,18 +137,17 @@ CalibrationVerdict judge_force_line(const ForceLineFit& fit, double span_N, cons
                         places(fit.saturated)));
   }
   if (fit.bend_probability < config.significance && fit.bend_newton > config.linearity_share * span_N) {
-    out.add("force_not_straight",
-            fmt::format("the sensor is not straight: a parabola leaves the line by {:.2g} N, {:.1f} % of the range "
-                        "(probability {:.1g} by chance)",
-                        fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
+    out.add("force_not_straight", fmt::format("the sensor is not linear: a parabola deviates from the line by {:.2g} "
+                                              "N, {:.1f} % of the range (probability {:.1g} by chance)",
+                                              fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
   }
   if (!fit.outliers.empty()) {
     out.add("force_outlier", fmt::format("point {} contradicts the others", places(fit.outliers)));
-    out.text += fmt::format(" Point {} contradicts the others: look at it again.", places(fit.outliers));
+    out.text += fmt::format(" Point {} contradicts the others: measure it again.", places(fit.outliers));
   }
   if (fit.counts_error_newton > 0.5 * fit.force.residual_newton) {
-    out.add("counts_coarse", "the rounding of the counts is not small beside the residual");
-    out.text += " The rounding of the counts is not small beside the residual.";
+    out.add("counts_coarse", "the rounding of the counts is not small compared with the residual");
+    out.text += " The rounding of the counts is not small compared with the residual.";
   }
   return out;
 }

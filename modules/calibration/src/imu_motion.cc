@@ -51,8 +51,8 @@ ImuMotion::ImuMotion(double first_s, double last_s, double knot_s, const PoseSer
     points_.col(j).tail<3>() = log_rotation(R0_.conjugate() * pose.rotation);
     if (!(points_.col(j).tail<3>().norm() < kFarthest_rad)) {
       throw Error(
-          "calibrate imu: the probe was turned by more than two radians from its mean direction: turn it by some 30° "
-          "to all sides, the tags in view");
+          "calibrate imu: the probe was rotated by more than two radians from its mean direction: rotate it by some "
+          "30° to all sides, with the tags in view");
     }
   }
 }

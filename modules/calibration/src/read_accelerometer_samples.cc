@@ -80,17 +80,17 @@ struct Collector {
 
 AccelerometerFile read_bare(std::string_view text, const std::string& name) {
   AccelerometerFile out;
-  out.notes.emplace_back("a table of bare numbers: its columns were taken for t_s, accel_i, accel_j, accel_k");
+  out.notes.emplace_back("a table of bare numbers: its columns were read as t_s, accel_i, accel_j, accel_k");
   Collector collector;
   std::string_view line;
   for (std::size_t place = 1; next_line(text, line); ++place) {
     if (trim(line).empty() || trim(line).front() == '#') continue;
     const auto row = numbers(line);
     if (!row || row->size() != 4) {
-      throw Error(fmt::format("{}:{}: four numbers t i j k are wanted, not '{}'", name, place, printable(line)));
+      throw Error(fmt::format("{}:{}: expected four numbers t i j k, not '{}'", name, place, printable(line)));
     }
     for (const double value : *row) {
-      if (!std::isfinite(value)) throw Error(fmt::format("{}:{}: {} is no reading", name, place, value));
+      if (!std::isfinite(value)) throw Error(fmt::format("{}:{}: {} is not a finite reading", name, place, value));
     }
     collector.take((*row)[0], {(*row)[1], (*row)[2], (*row)[3]});
   }

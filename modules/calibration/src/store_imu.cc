@@ -50,13 +50,13 @@ std::string imu_storage_text(const ImuCalibration& imu, const Calibration& used)
   if (used.accelerometer.model == AccelerometerModel::kQuadric) {
     return "the accelerometer's model is quadric: its rotation stays as it was calibrated";
   }
-  if (!used.accelerometer.rotation_known) return "the sensor's rotation goes into its calibration";
+  if (!used.accelerometer.rotation_known) return "the sensor's rotation is written to its calibration";
   const double turn_rad = log_rotation(imu.R_marker_sensor).norm();
   if (is_off(imu)) {
-    return fmt::format("the sensor is turned by {:.1f} mrad against its calibration, which is put right",
+    return fmt::format("the sensor is rotated by {:.1f} mrad from its calibration, which was corrected",
                        1e3 * turn_rad);
   }
-  return fmt::format("the sensor's rotation agrees with its calibration, which stays (it differs by {:.1f} mrad)",
+  return fmt::format("the sensor's rotation agrees with its calibration, which is kept (it differs by {:.1f} mrad)",
                      1e3 * turn_rad);
 }
 

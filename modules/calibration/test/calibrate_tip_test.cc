@@ -181,7 +181,7 @@ TEST(CalibrateTip, RefusesSwingsThatLeaveADirectionOpen) {
   EXPECT_THAT(message_of(simulate(small, tracker, random), tracker), HasSubstr("swing the probe"));
   Swing still;
   still.amplitude_rad.setZero();
-  EXPECT_THAT(message_of(simulate(still, tracker, random), tracker), HasSubstr("hardly turned"));
+  EXPECT_THAT(message_of(simulate(still, tracker, random), tracker), HasSubstr("hardly rotated"));
   EXPECT_THAT(message_of({}, tracker), HasSubstr("0 poses"));
 }
 

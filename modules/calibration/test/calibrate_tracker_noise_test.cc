@@ -179,8 +179,8 @@ TEST(TrackerNoise, RefusesWhatNeverRests) {
     calibrate_tracker_noise({&two, 1});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::ContainsRegex("it stayed for 4\\.[0-9]+ s at most, then it was [0-9.]+ mm and "
-                                                     "[0-9.]+ mrad away, where 2 mm and 20 mrad are a rest"));
+    EXPECT_THAT(error.what(), testing::ContainsRegex("it was stationary for 4\\.[0-9]+ s at most, then it was [0-9.]+ "
+                                                     "mm and [0-9.]+ mrad away, where 2 mm and 20 mrad are allowed"));
   }
   const TrackerStream empty;
   const StaticTracker nothing{"empty", &empty, {}, true};

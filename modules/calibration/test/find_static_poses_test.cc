@@ -99,7 +99,7 @@ TEST(ReadAccelerometerSamples, TablesWithAndWithoutAHeader) {
   write("t_s,accel_i,accel_j,accel_k,fx_mps2\n0,1,2,3,0\n");
   EXPECT_THAT(message_of(file), HasSubstr("fy_mps2"));
   write("0 1 2 3\n0.1 4 5\n");
-  EXPECT_THAT(message_of(file), HasSubstr("accel.csv:2: four numbers"));
+  EXPECT_THAT(message_of(file), HasSubstr("accel.csv:2: expected four numbers"));
   write("0 1 2 3\n0.1 4 5 nan\n");
   EXPECT_THAT(message_of(file), HasSubstr("accel.csv:2"));
   write("t_s,accel_i,accel_j,accel_k\n0,1,x,3\n");

@@ -129,7 +129,7 @@ TEST(FitAccelerometer, GravityAloneDoesNotDetermineOneSquare) {
   EXPECT_EQ(fit.models[2].parameters, 9);
   EXPECT_TRUE((fit.models[2].accelerometer.B.col(5).array() == 0.0).all());
   EXPECT_EQ(fit.accelerometer.model, AccelerometerModel::kLinear) << fit.reason;
-  EXPECT_THAT(fit.reason, HasSubstr("linear has the least"));
+  EXPECT_THAT(fit.reason, HasSubstr("linear has the lowest"));
   // The seed's sensor lies askew, so one factor an axis is far off (Fig. 12).
   EXPECT_GT(fit.models[0].accelerometer.residual_counts.minCoeff(),
             5.0 * fit.models[1].accelerometer.residual_counts.maxCoeff());

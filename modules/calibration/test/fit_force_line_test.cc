@@ -76,7 +76,7 @@ TEST(FitForceLine, ABentSensorIsLimitedByItsBend) {
   // The parabola less its own line, at the ends: 4e-5·(u² − mean u²) with u = ±85.5, mean u² = 81·(400 − 1)/12.
   EXPECT_NEAR(fit.bend_newton, 4e-5 * (85.5 * 85.5 - 81.0 * 399.0 / 12.0), 0.02);
   EXPECT_EQ(verdict_word(fit.verdict.verdicts), "limited");
-  EXPECT_THAT(fit.verdict.text, HasSubstr("not straight"));
+  EXPECT_THAT(fit.verdict.text, HasSubstr("not linear"));
 }
 
 TEST(FitForceLine, NamesASaturatedEndAndAnOutlier) {

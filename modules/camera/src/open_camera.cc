@@ -133,7 +133,7 @@ std::unique_ptr<CameraSource> open_camera(const CameraAddress& address) {
     case CameraKind::kVideo:
       return open_video(address.path);
   }
-  throw Error("camera: there is no such kind");
+  throw Error("camera: this kind of camera is unknown");
 }
 
 }  // namespace asperity

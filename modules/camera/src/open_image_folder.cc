@@ -99,7 +99,7 @@ class ImageListSource final : public CameraSource {
     if (!(rate_Hz_ >= 0.0) || rate_Hz_ > kLargestFolderRate_Hz) {
       throw Error(name_ + ": the rate " + number_text(rate_Hz_) + " Hz is not within 0 to 100000");
     }
-    if (files.empty()) throw Error(name_ + ": there is no image (*.png, *.jpg, *.jpeg, *.pgm)");
+    if (files.empty()) throw Error(name_ + ": holds no image (*.png, *.jpg, *.jpeg, *.pgm)");
     if (rate_Hz_ == 0.0) {
       files_ = times_from_names(files, name_);
       return;

@@ -101,10 +101,10 @@ class V4l2Buffers {
 
 void check_is_camera(const V4l2Device& device) {
   v4l2_capability has{};
-  if (!device.ask(VIDIOC_QUERYCAP, has)) throw Error(device.name() + ": is no video device");
+  if (!device.ask(VIDIOC_QUERYCAP, has)) throw Error(device.name() + ": is not a video device");
   const std::uint32_t can = (has.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? has.device_caps : has.capabilities;
   if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0) {
-    throw Error(device.name() + ": takes no images (a camera often has a second device without)");
+    throw Error(device.name() + ": does not capture images (a camera often has a second device that does not)");
   }
   if ((can & V4L2_CAP_STREAMING) == 0) throw Error(device.name() + ": cannot share memory for its images");
 }

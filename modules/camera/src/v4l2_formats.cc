@@ -58,7 +58,7 @@ void add_mode(const V4l2Device& device, std::uint32_t fourcc, std::uint32_t widt
 }
 
 std::string describe_modes(const std::vector<V4l2Mode>& modes) {
-  if (modes.empty()) return "it does not tell what it has";
+  if (modes.empty()) return "the camera does not list its modes";
   std::string out = "it has";
   constexpr std::size_t kShown = 40;
   for (std::size_t i = 0; i < std::min(modes.size(), kShown); ++i) {
@@ -73,7 +73,7 @@ v4l2_format current_format(const V4l2Device& device) {
   v4l2_format out{};
   out.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (!device.ask(VIDIOC_G_FMT, out))
-    throw Error(device.name() + ": does not tell its format: " + std::strerror(errno));
+    throw Error(device.name() + ": does not report its format: " + std::strerror(errno));
   return out;
 }
 

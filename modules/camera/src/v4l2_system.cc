@@ -52,7 +52,7 @@ V4l2Device::V4l2Device(const std::string& path, std::unique_ptr<V4l2System> syst
     : name_("v4l2:" + path), system_(std::move(system)), file_(system_->open(path.c_str())) {
   if (file_ >= 0) return;
   const int reason = errno;
-  if (reason == ENOTTY) throw Error(name_ + ": is no video device");
+  if (reason == ENOTTY) throw Error(name_ + ": is not a video device");
   if (reason == EBUSY) throw Error(name_ + ": is used by another program");
   throw Error(name_ + ": cannot be opened: " + std::strerror(reason));
 }

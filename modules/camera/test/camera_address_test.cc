@@ -65,9 +65,9 @@ TEST(OpenCamera, OpensEveryKind) {
   const auto refuses = [](const std::string& address, const std::string& part) {
     EXPECT_THAT([&] { open_camera(parse_camera_address(address)); }, ThrowsMessage<Error>(HasSubstr(part))) << address;
   };
-  refuses("v4l2:/proc/self/status", "v4l2:/proc/self/status: is no video device");
+  refuses("v4l2:/proc/self/status", "v4l2:/proc/self/status: is not a video device");
   refuses("y4m:" + (dir / "none").string(), "none: cannot be opened");
-  refuses("images:" + dir.path().string(), "there is no image");
+  refuses("images:" + dir.path().string(), "holds no image");
   refuses("video:" + (dir / "none").string(), "none: is not a file");
 }
 

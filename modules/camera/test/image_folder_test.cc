@@ -83,7 +83,7 @@ TEST(ImageFolder, RefusesWhatHasNoTimes) {
     make_images(dir, names);
     EXPECT_THAT([&] { open_image_folder(dir.path(), config); }, ThrowsMessage<Error>(HasSubstr(part)));
   };
-  refuses({}, {}, "there is no image");
+  refuses({}, {}, "holds no image");
   refuses({"a.png"}, {}, "a.png is not a time in ns; give the images a rate");
   refuses({"1.png", "2.png", "3.png"}, {}, "they would be 1 ns apart");
   refuses({"1000.png", "1000.pgm"}, {}, "have the same time");

@@ -220,7 +220,7 @@ TEST(OpenV4l2, SaysWhyItCannotBeOpened) {
   refuses(camera, {}, "used by another program");
   camera = small(V4L2_PIX_FMT_YUYV);
   camera.capabilities = V4L2_CAP_META_CAPTURE;
-  refuses(camera, {}, "takes no images");
+  refuses(camera, {}, "does not capture images");
   camera = small(V4L2_PIX_FMT_H264);
   refuses(camera, {}, "no images of 4x2 that could be used (grey, yuyv, uyvy, mjpg); it has H264 4x2 at 120 Hz");
   camera = small(V4L2_PIX_FMT_YUYV);
@@ -241,7 +241,7 @@ TEST(OpenV4l2, ChoosesTheFormatThatReachesTheRate) {
 }
 
 TEST(OpenV4l2, AFileIsNoVideoDevice) {
-  EXPECT_THAT([] { open_v4l2("/proc/self/status"); }, ThrowsMessage<Error>(HasSubstr("is no video device")));
+  EXPECT_THAT([] { open_v4l2("/proc/self/status"); }, ThrowsMessage<Error>(HasSubstr("is not a video device")));
   EXPECT_THAT([] { open_v4l2("/dev/video-that-is-not"); }, ThrowsMessage<Error>(HasSubstr("cannot be opened")));
 }
 

@@ -85,7 +85,7 @@ TEST(OpenY4m, SaysWhereAStreamIsWrong) {
   second_frame("\nFRAME Xt_ns=5\nabFRAME Xt_ns=5\ncd", "frame 2: Xt_ns=5 is not after 5");
   second_frame("\nFRAME Xt_ns=5\nabFRAME\ncd", "frame 2 has no Xt_ns");
   second_frame(" F9:1\nFRAME\nabFRAME Xt_ns=6\ncd", "frame 2 has an Xt_ns");
-  second_frame(" F9:1\nFRAME\nabFRAMX\ncd", "frame 2: where FRAME should stand is 'FRAMX'");
+  second_frame(" F9:1\nFRAME\nabFRAMX\ncd", "frame 2: expected FRAME, found 'FRAMX'");
   second_frame(" F9:1\nFRAME\nabFRAME\nc", "ended within frame 2");
   second_frame(" F9:1\nFRAME\nab" + std::string(2000, 'x'), "frame 2 is longer than 1024");
 

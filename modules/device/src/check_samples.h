@@ -17,7 +17,8 @@ void check_samples(const Samples& samples, const std::string& what) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto place = [&] { return what + ": point " + std::to_string(i) + ": "; };
     const std::int64_t t_ns = samples[i].t_ns;
-    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) throw Error(place() + std::to_string(t_ns) + " ns is no time");
+    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns)
+      throw Error(place() + std::to_string(t_ns) + " ns is not a valid time");
     if (i > 0 && t_ns <= samples[i - 1].t_ns) throw Error(place() + std::to_string(t_ns) + " ns: time does not rise");
     if (!samples[i].p_m.allFinite()) throw Error(place() + "its position is not finite");
   }

@@ -112,7 +112,7 @@ std::size_t index_of(std::string_view name) {
   for (std::size_t k = 0; k < entries().size(); ++k) {
     if (entries()[k].kind.name == name) return k;
   }
-  throw Error("there is no device '" + printable(std::string(name), 100) + "'");
+  throw Error("unknown device '" + printable(std::string(name), 100) + "'");
 }
 
 // Settings whose type only the entry knows, as ConfigLister takes them.

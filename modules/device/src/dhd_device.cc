@@ -83,7 +83,7 @@ class DhdDevice final : public HapticDevice {
  private:
   std::string words() const {
     const char* const text = api_.last_error();
-    return text == nullptr ? "the driver does not say why" : printable(text, 200);
+    return text == nullptr ? "the driver gives no reason" : printable(text, 200);
   }
 
   // True if the controller turns forces off by itself when none comes for so long, and said so.

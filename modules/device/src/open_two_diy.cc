@@ -76,7 +76,7 @@ class TwoDiy final : public IoDevice {
   [[noreturn]] void fail_to_open() const {
     std::string why = ": no answer within a second";
     if (questions_.last_age() > Clock::duration::zero()) why = ": its answers come " + age_text() + " late";
-    if (answers_.theta_deg()) why = ": its arms are in line, where its place is not known: move the handle";
+    if (answers_.theta_deg()) why = ": its arms are in line, where its position is not known; move the handle";
     throw Error("2diy: " + printable(config_.port, 200) + why);
   }
 
@@ -128,7 +128,7 @@ class TwoDiy final : public IoDevice {
     const double t_s = std::chrono::duration<double>(now - begin_).count();
     const TwoDiyAnswers::Kind kind = answers_.take(answer_, t_s, current);
     if (kind == TwoDiyAnswers::Kind::kFault) {
-      throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
+      throw Error("2diy: " + printable(config_.port, 200) + ": its answers are not valid");
     }
     if (kind == TwoDiyAnswers::Kind::kRefused || !current) return true;
     state_ = pantograph_state(linkage_, *answers_.theta_deg() * (std::numbers::pi / 180.0));
@@ -166,7 +166,7 @@ class TwoDiy final : public IoDevice {
   void beat() {
     if (!has_pushed_ || supervisor_->beat()) return;
     throw Error("2diy: " + printable(config_.port, 200) +
-                ": this process stood still and its force was ended, or the process that watches it is gone");
+                ": this process was stopped and its force was ended, or the process that watches it has ended");
   }
 
   // Until every question was answered; false if one was not by `until`. Who waits is there, however long it takes.

@@ -20,12 +20,12 @@ constexpr std::int64_t kUntimedRow_ns = 1'000'000;
 std::int64_t time_ns(const CsvReader& csv, std::size_t column, bool seconds) {
   if (!seconds) {
     const std::int64_t t_ns = csv.integer(column);
-    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) csv.fail(column, std::to_string(t_ns) + " ns is no time");
+    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) csv.fail(column, std::to_string(t_ns) + " ns is not a valid time");
     return t_ns;
   }
   const double t_s = csv.number(column);
   if (!(std::abs(t_s) * 1e9 <= static_cast<double>(kFarthest_ns))) {
-    csv.fail(column, "'" + printable(csv.cell(column)) + "' is no time in seconds");
+    csv.fail(column, "'" + printable(csv.cell(column)) + "' is not a time in seconds");
   }
   return std::llround(t_s * 1e9);
 }
@@ -63,7 +63,7 @@ ReplayFile parse_replay_csv(std::string_view text, const std::string& name) {
     out.samples.push_back(sample);
   }
   if (out.samples.empty()) throw Error(name + ": no row with a position");
-  if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were passed over", passed_over});
+  if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were skipped", passed_over});
   return out;
 }
 

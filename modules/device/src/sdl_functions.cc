@@ -13,7 +13,7 @@ const SdlFunctions& load_sdl() {
                {library_symbol("asperity_sdl", entry)});
   const SdlFunctions* const table = entry();
   if (table->version != kSdlFunctionsVersion) {
-    throw Error("audio and gamepads: libasperity_sdl.so is of another version than this program; install both anew");
+    throw Error("audio and gamepads: libasperity_sdl.so is of another version than this program; install both again");
   }
   return *table;
 }

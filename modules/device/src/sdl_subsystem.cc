@@ -25,7 +25,7 @@ SdlSubsystem::SdlSubsystem(Uint32 flag, const std::string& audio_driver) : flag_
   const bool audio = flag == SDL_INIT_AUDIO;
   const char* in_use = audio ? sdl().GetCurrentAudioDriver() : nullptr;
   if (in_use != nullptr && !audio_driver.empty() && audio_driver != in_use) {
-    throw Error("audio: driver '" + printable(audio_driver) + "' wanted, but '" + in_use + "' is in use");
+    throw Error("audio: driver '" + printable(audio_driver) + "' was asked for, but '" + in_use + "' is in use");
   }
   if (audio) sdl().SetHint(SDL_HINT_AUDIODRIVER, audio_driver.empty() ? nullptr : audio_driver.c_str());
   if (sdl().InitSubSystem(flag) != 0) {

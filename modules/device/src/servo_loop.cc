@@ -29,7 +29,8 @@ void check_servo_config(const ServoConfig& config) {
   }
   const double length = config.frame.R_world_device.norm();
   if (!(length > 1.0 - 1e-6 && length < 1.0 + 1e-6)) {
-    throw Error("servo.frame.R_world_device_xyzw: a quaternion of length " + number_text(length) + " is no rotation");
+    throw Error("servo.frame.R_world_device_xyzw: a quaternion of length " + number_text(length) +
+                " is not a rotation");
   }
   if (!config.frame.translation_m.allFinite()) throw Error("servo.frame.translation_m: not finite");
 }

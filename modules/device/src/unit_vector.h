@@ -16,7 +16,7 @@ inline Eigen::Vector3d unit_vector(const std::array<double, 3>& v, const std::st
   Eigen::Vector3d unit = direction.stableNormalized();
   if (!(direction.cwiseAbs().maxCoeff() > 0.0) || !unit.allFinite()) {
     throw Error(what + ": [" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) +
-                "] is no direction");
+                "] is not a direction");
   }
   return unit;
 }

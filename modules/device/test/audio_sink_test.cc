@@ -139,7 +139,7 @@ TEST(AudioSink, RefusalsAreInWords) {
   config.driver = "dummy";
   const auto sink = open_audio_sink(config);
   config.driver = "disk";
-  EXPECT_THAT(message_of(config), HasSubstr("'disk' wanted, but 'dummy' is in use"));
+  EXPECT_THAT(message_of(config), HasSubstr("'disk' was asked for, but 'dummy' is in use"));
 }
 
 TEST(AudioSink, LeavesSignalHandlersAlone) {

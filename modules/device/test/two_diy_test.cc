@@ -163,7 +163,7 @@ double stop_a_process_ms() {
       if (device->read(0).status == DeviceStatus::kFault) break;
       serve(*device, 1, [](const DeviceReading&) { return Eigen::Vector3d(0.0, 0.0, -1.0); });
     }
-    const bool told = device->fault().find("stood still") != std::string::npos;
+    const bool told = device->fault().find("was stopped") != std::string::npos;
     ::_exit(told ? 7 : 1);
   }
   EXPECT_TRUE(comes_true([&] { return board.torque_N_m().norm() > 0.0; }));
@@ -201,7 +201,7 @@ std::string fault_of_a_board(bool nonsense) {
 }
 
 TEST(TwoDiy, NonsenseAndLongStallsAreFaultsInWords) {
-  EXPECT_THAT(fault_of_a_board(true), HasSubstr("make no sense"));
+  EXPECT_THAT(fault_of_a_board(true), HasSubstr("are not valid"));
   // On a busy machine its last answer may have been late, which is told instead.
   std::string fault;
   EXPECT_TRUE(testkit::holds_on_a_free_machine([&] {
@@ -237,7 +237,7 @@ TEST(TwoDiy, RefusalsAreInWords) {
   EXPECT_THAT(message_of({}), HasSubstr("2diy.port"));
   TwoDiyConfig config;
   config.port = "/nowhere/ttyACM0";
-  EXPECT_THAT(message_of(config), HasSubstr("/nowhere/ttyACM0: there is no such port; is the board plugged in?"));
+  EXPECT_THAT(message_of(config), HasSubstr("/nowhere/ttyACM0: the port does not exist; is the board plugged in?"));
   config.port = "/dev/null";
   EXPECT_THAT(message_of(config), HasSubstr("is not a serial port"));
   FakeTwoDiyBoard board;

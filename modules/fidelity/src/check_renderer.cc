@@ -33,8 +33,8 @@ struct Ticks {
 
 // Why a texture cannot have the phase of a scan of this length, in words; empty if it can.
 std::string why_no_phase(const Texture* texture, double path_m) {
-  if (texture == nullptr) return "the scan lies where the scene has no texture";
-  if (is_synthetic(texture->model)) return "the texture is made up from a spectrum";
+  if (texture == nullptr) return "the scan is where the scene has no texture";
+  if (is_synthetic(texture->model)) return "the texture is synthesised from a spectrum";
   const auto window = height_window(texture->model, std::numeric_limits<std::size_t>::max());
   if (!window) return "the texture has no heights of its own";
   const double length_m = window->length_m;
@@ -108,7 +108,7 @@ Pair common(std::vector<double> real, std::vector<double> rendered) {
       real[i] = rendered[i] = kNan;
     }
   }
-  if (first >= last) throw Error("score: the scan and its rendering have no place in common");
+  if (first >= last) throw Error("score: the scan and its rendering have no position in common");
   const auto cut = [&](std::vector<double>& x) {
     x.erase(x.begin() + static_cast<std::ptrdiff_t>(last), x.end());
     x.erase(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(first));

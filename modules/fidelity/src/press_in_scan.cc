@@ -36,7 +36,10 @@ std::vector<double> bridged_force(const TipMotion& motion) {
 
 ProcessResult measure_on_scene(const Recording& recording, const Scene& scene, const ProcessConfig& config,
                                const Observer& observer) {
-  if (!scene.T_mesh_world) throw Error("the scene has no registration (T_mesh_world), which says where the scan lies");
+  if (!scene.T_mesh_world)
+    throw Error(
+        "the scene has no registration (T_mesh_world), so that the position of the scan is not known; register the "
+        "scan first");
   if (scene.objects.empty()) throw Error("the scene has no object");
   ProcessResult result = estimate_motion(recording, config, observer);
   const MeshSurface surface(to_metres(scene.objects.front().mesh, scene.objects.front().unit_m));

@@ -272,7 +272,8 @@ FlatPatch flatten_patch(const SurfacePatch& patch, const FlattenConfig& config) 
       break;
     }
   }
-  if (!std::isfinite(energy)) throw Error("area: the patch cannot be laid on a circle without turning a triangle over");
+  if (!std::isfinite(energy))
+    throw Error("area: the patch cannot be flattened to a circle without flipping a triangle");
   out.energy = energy;
   measure(rest, q, out);
   for (Eigen::Index v = 0; 2 * v < q.size(); ++v) out.uv_m.emplace_back(q[2 * v], q[2 * v + 1]);

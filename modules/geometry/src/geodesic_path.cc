@@ -32,7 +32,7 @@ void check_mesh_point(const TriangleMesh& mesh, const MeshAdjacency& adjacency, 
   const Vector3d& w = point.barycentric;
   if (!w.allFinite() || w.minCoeff() < -kSlack || std::abs(w.sum() - 1.0) > kSlack ||
       !position_m(mesh, point).allFinite())
-    throw Error("geodesic path: a point does not lie on triangle " + std::to_string(point.triangle));
+    throw Error("geodesic path: a point is not on triangle " + std::to_string(point.triangle));
 }
 
 double angle_between(const Vector2d& a, const Vector2d& b) {

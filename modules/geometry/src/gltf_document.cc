@@ -66,7 +66,7 @@ class Checker {
     if (bytes_.size() < 20) fail("is cut: a binary glTF of " + std::to_string(bytes_.size()) + " bytes");
     if (word(4) != 2) fail("is glTF version " + std::to_string(word(4)) + "; 2 is read");
     if (word(8) > bytes_.size())
-      fail("is cut: its header says " + std::to_string(word(8)) + " bytes, it has " + std::to_string(bytes_.size()));
+      fail("is cut: its header states " + std::to_string(word(8)) + " bytes, it has " + std::to_string(bytes_.size()));
     constexpr std::uint32_t kJson = 0x4E4F534A;
     constexpr std::uint32_t kBinary = 0x004E4942;
     std::string_view text;
@@ -90,7 +90,7 @@ class Checker {
     limits.depth = kMaxDepth;
     limits.values = kMaxValues;
     document_ = parse_json(text, name_, limits, observer_.without_progress());
-    if (!document_.is_object()) fail("is not glTF: its JSON is no object");
+    if (!document_.is_object()) fail("is not glTF: its JSON is not an object");
   }
 
   void version() const {
@@ -130,7 +130,7 @@ class Checker {
     Json* buffers = document_.find("buffers");
     if (buffers == nullptr) return;
     if (!buffers->is_array() || buffers->size() > kMaxBuffers)
-      fail("'buffers' is no list of at most " + std::to_string(kMaxBuffers));
+      fail("'buffers' is not a list of at most " + std::to_string(kMaxBuffers));
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < buffers->size(); ++i) {
       Json& buffer = (*buffers)[i];
@@ -171,7 +171,7 @@ class Checker {
     if (embedded > 0)
       out_.problems.push_back({"embedded_image", name_ + ": images inside the file are left out", embedded});
     if (outside > 0)
-      out_.problems.push_back({"outside_path", name_ + ": an image's file lies outside the folder", outside});
+      out_.problems.push_back({"outside_path", name_ + ": an image's file is outside the folder", outside});
   }
 
   std::string_view bytes_;

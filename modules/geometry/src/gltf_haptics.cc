@@ -36,7 +36,7 @@ int add_gltf_image(tinygltf::Model& model, GltfBuffer& buffer, const GltfImage& 
   if (image.png.empty()) {
     const auto inner = inner_path(image.file);
     if (!inner || !is_utf8(*inner))
-      fail_haptics("the image '" + printable(image.file) + "' is no file beside the export");
+      fail_haptics("the image '" + printable(image.file) + "' is not a file in the folder of the export");
     out.uri = *inner;
   } else {
     const std::size_t begin = buffer.size();

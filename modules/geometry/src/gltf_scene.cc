@@ -48,7 +48,8 @@ std::vector<int> gltf_roots(const tinygltf::Model& model, const std::string& nam
 std::vector<Triangle> gltf_triangles(int mode, std::span<const std::uint32_t> order, const std::string& what) {
   std::vector<Triangle> out;
   if (mode == TINYGLTF_MODE_TRIANGLES) {
-    if (order.size() % 3 != 0) throw Error(what + ": " + std::to_string(order.size()) + " corners are no triangles");
+    if (order.size() % 3 != 0)
+      throw Error(what + ": " + std::to_string(order.size()) + " corners are not triangles, which have three each");
     out.reserve(order.size() / 3);
     for (std::size_t i = 0; i < order.size(); i += 3) out.push_back({order[i], order[i + 1], order[i + 2]});
   }

@@ -27,7 +27,7 @@ bool read_buffer(std::vector<unsigned char>* out, std::string* error, const std:
       return true;
     }
     const auto file = files.folder.empty() ? std::nullopt : inner_file(files.folder, name);
-    if (!file) throw Error("it lies outside the mesh's folder");
+    if (!file) throw Error("it is outside the mesh's folder");
     const std::string content = read_file(*file, files.bytes_left);
     files.bytes_left -= content.size();
     out->assign(content.begin(), content.end());

@@ -277,7 +277,7 @@ class GltfReader {
     const double height_mm = extra_number(haptic, "height_mm", 0.0);
     if (!(texture >= 0.0 && texture < 2147483648.0 && texture == std::floor(texture) && width_mm > 0.0 &&
           height_mm > 0.0)) {
-      throw Error(what + ": its haptic texture or size is no such number");
+      throw Error(what + ": its haptic texture index or size is not a valid number");
     }
     mesh_.haptic.resize(before);
     for (const Triangle& t : triangles) {

@@ -47,7 +47,7 @@ class MtlParser {
     if (keyword == "newmtl") {
       begin();
     } else if (material_ == nullptr) {
-      damaged("stands before the first 'newmtl'");
+      damaged("is before the first 'newmtl'");
     } else if (keyword == "Kd") {
       colour();
     } else if (keyword == "map_Kd") {

@@ -71,7 +71,7 @@ class LibraryReader {
   void library(const std::string& name) {
     const std::string shown = path_.string() + ": the material library '" + printable(name) + "' ";
     if (!inner_file(path_.parent_path(), name)) {
-      return problems_.count("outside_path", [&] { return shown + "lies outside the mesh's folder and is not read"; });
+      return problems_.count("outside_path", [&] { return shown + "is outside the mesh's folder and is not read"; });
     }
     if (!exists(name)) return problems_.count("missing_library", [&] { return shown + "is missing"; });
     if (libraries_++ == kMaxLibraries) {

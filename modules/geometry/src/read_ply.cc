@@ -165,7 +165,7 @@ class PlyParser {
   }
 
   void faces(const PlyElement& element) {
-    if (mesh_.vertices.empty() && element.count > 0) throw Error(name_ + ": its faces stand before its vertices");
+    if (mesh_.vertices.empty() && element.count > 0) throw Error(name_ + ": its faces come before its vertices");
     std::size_t list = element.properties.size();
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
@@ -215,7 +215,7 @@ class PlyParser {
   // second one turned; −1 begins a new strip. A triangle with the same corner twice is the strip's own joint and left
   // out.
   void strips(const PlyElement& element) {
-    if (mesh_.vertices.empty() && element.count > 0) throw Error(name_ + ": its strips stand before its vertices");
+    if (mesh_.vertices.empty() && element.count > 0) throw Error(name_ + ": its strips come before its vertices");
     for (std::size_t row = 0; row < element.count; ++row) {
       numbers_.set_place(element, row);
       for (const PlyProperty& property : element.properties) {

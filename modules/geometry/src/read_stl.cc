@@ -61,7 +61,7 @@ class StlParser {
     if (bytes_.size() < kHeader) throw Error(name_ + ": is not an STL: " + std::to_string(bytes_.size()) + " bytes");
     const std::size_t whole = (bytes_.size() - kHeader) / kFacet;
     if (facets > whole) {
-      throw Error(name_ + ": is cut or no STL: its header counts " + std::to_string(facets) + " triangles, " +
+      throw Error(name_ + ": is cut, or is not an STL: its header counts " + std::to_string(facets) + " triangles, " +
                   std::to_string(whole) + " are in it");
     }
     if (const std::size_t surplus = bytes_.size() - kHeader - kFacet * facets; surplus > 0) {

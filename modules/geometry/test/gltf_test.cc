@@ -161,7 +161,7 @@ TEST_F(GltfFolder, HostileFilesAreRefused) {
   EXPECT_THAT(read(document("../secret.bin", "5", node)), HasSubstr("outside the mesh's folder"));
   EXPECT_THAT(read(document("link.bin", "5", node)), HasSubstr("outside the mesh's folder"));
   EXPECT_THAT(read(document((folder_ / "secret.bin").string(), "5", node)), HasSubstr("outside the mesh's folder"));
-  EXPECT_THAT(read(document("d.bin", "4", node)), HasSubstr("4 corners are no triangles"));
+  EXPECT_THAT(read(document("d.bin", "4", node)), HasSubstr("4 corners are not triangles"));
   EXPECT_THAT(read(document("d.bin", "0", node)), HasSubstr("holds no triangles"));
   EXPECT_THAT(read(document("d.bin", "5", R"([{"children":[0],"mesh":0}])")), HasSubstr("its own ancestor"));
   EXPECT_THAT(read(document("d.bin", "5", R"([{"mesh":3}])")), HasSubstr("mesh 3 does not exist"));

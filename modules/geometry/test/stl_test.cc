@@ -48,7 +48,7 @@ TEST(Stl, RefusalsNameThePlace) {
   const auto refused = [](const std::string& text) { return message_of([&] { parse_stl(text, "t.stl"); }); };
   const std::string bytes = format_stl(pyramid());
   EXPECT_EQ(refused(bytes.substr(0, bytes.size() - 1)),
-            "t.stl: is cut or no STL: its header counts 6 triangles, 5 are in it");
+            "t.stl: is cut, or is not an STL: its header counts 6 triangles, 5 are in it");
   EXPECT_EQ(refused("nothing"), "t.stl: is not an STL: 7 bytes");
   EXPECT_EQ(refused("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n"), "t.stl:4: '' is not a coordinate");
   EXPECT_EQ(refused("solid a\nendsolid a\n"), "t.stl: holds no triangles");

@@ -94,7 +94,7 @@ DeepGrayImage parse_pgm(std::string_view data, const std::string& name) {
   }
   if (!binary) {
     in.skip_blanks();
-    if (!in.at_end()) in.fail("goes on after its last pixel");
+    if (!in.at_end()) in.fail("has data after its last pixel");
   }
   return image;
 }

@@ -16,7 +16,7 @@ const TiffLibrary& load_tiff_library() {
   const TiffLibrary* const table = entry();
   if (table->program != std::string_view(kVersion) || table->compiler != std::string_view(__VERSION__)) {
     throw Error(std::string("TIFF: libasperity_tiff.so is asperity ") + table->program + " by compiler " +
-                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both anew");
+                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both again");
   }
   return *table;
 }

@@ -128,7 +128,7 @@ Y4mHeader parse_y4m_header(std::string_view line, const std::string& name) {
 std::optional<std::int64_t> parse_y4m_frame_line(std::string_view line, const std::string& name) {
   std::string_view rest = line;
   if (next_parameter(rest) != kFrame) {
-    throw Error(name + ": where FRAME should stand is '" + printable(line, 20) + "'");
+    throw Error(name + ": expected FRAME, found '" + printable(line, 20) + "'");
   }
   std::optional<std::int64_t> t_ns;
   for (std::string_view parameter = next_parameter(rest); !parameter.empty(); parameter = next_parameter(rest)) {

@@ -139,7 +139,7 @@ class Reader {
     if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG)
       fail("is compressed as JPEG, which changes the numbers; save it without loss");
     if (const int turned = field<std::uint16_t>(TIFFTAG_ORIENTATION); turned != ORIENTATION_TOPLEFT)
-      fail("is stored turned or mirrored (Orientation " + std::to_string(turned) + "); save it upright");
+      fail("is stored rotated or mirrored (Orientation " + std::to_string(turned) + "); save it upright");
     out.bits = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE);
     const int format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT);
     out.is_float = format == SAMPLEFORMAT_IEEEFP;

@@ -264,7 +264,7 @@ ClockFit align_clocks(const PoseStream& pose, const VectorStream& rate, const Ve
                       const std::vector<Eigen::Vector3d>& ups) {
   constexpr std::size_t kFewest = 3;
   ClockFit best;
-  best.reason = "there is no gyroscope or too few poses";
+  best.reason = "the gyroscope is missing or the poses are too few";
   if (pose.size() < kFewest) return best;
   constexpr std::int64_t kHalf_ns = 20'000'000;
   const std::int64_t half_ns = std::max(kHalf_ns, median_interval_ns(pose.t_ns));

@@ -73,7 +73,7 @@ void check_gravity(const ImportStreams& streams, const StreamUnits& units, Strea
   if (streams.specific_force.size() == 0) return;
   constexpr double kAtRest = 1.03, kOnAverage = 1.1;
   double tolerance = kAtRest;
-  std::string where = "at rest";
+  std::string where = "while stationary";
   if (const auto rest = force_at_rest(streams.specific_force)) {
     out.rest_mps2 = rest->norm();
   } else if (const auto mean = mean_force_in_world(streams)) {
@@ -81,7 +81,8 @@ void check_gravity(const ImportStreams& streams, const StreamUnits& units, Strea
     tolerance = kOnAverage;
     where = "on average in the world";
   } else {
-    out.notes.push_back("specific force: its unit is not checked, for nothing is at rest and no pose goes with it");
+    out.notes.push_back(
+        "specific force: its unit is not checked, because no interval is stationary and no pose belongs to it");
     return;
   }
   const double ratio = out.rest_mps2 / kStandardGravity_mps2;

@@ -204,7 +204,7 @@ DelimitedTable read_delimited(std::string text, const std::string& name, std::st
   out.columns = std::move(names);
   RowReader reader(out, out.columns.size());
   reader.read(layout.data_begin, layout.data_line);
-  if (out.rows() == 0) throw Error(fmt::format("{}:{}: there is no whole row", name, layout.data_line));
+  if (out.rows() == 0) throw Error(fmt::format("{}:{}: no complete row was found", name, layout.data_line));
   return out;
 }
 

@@ -178,7 +178,7 @@ void Json::erase_at(std::size_t i) {
 }
 
 void Json::insert_at(std::size_t i, Json value) {
-  if (i > list().size()) throw Error("JSON: a list has no place " + std::to_string(i));
+  if (i > list().size()) throw Error("JSON: a list has no position " + std::to_string(i));
   list_->insert(list_->begin() + static_cast<std::ptrdiff_t>(i), std::move(value));
 }
 

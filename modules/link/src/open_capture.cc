@@ -39,7 +39,7 @@ std::vector<Piece> read_arrivals(const fs::path& path) {
     const std::int64_t count = csv.integer(bytes);
     const std::int64_t at_ns = csv.integer(arrival);
     if (count < 1) csv.fail(bytes, "must be at least 1");
-    if (at_ns < -kLongestCapture_ns || at_ns > kLongestCapture_ns) csv.fail(arrival, "is no time");
+    if (at_ns < -kLongestCapture_ns || at_ns > kLongestCapture_ns) csv.fail(arrival, "is not a valid time");
     if (pieces.empty()) first_ns = at_ns;
     if (!pieces.empty() && at_ns - first_ns < pieces.back().after_ns) csv.fail(arrival, "is before the line above");
     pieces.push_back({static_cast<std::size_t>(count), at_ns - first_ns});
@@ -53,7 +53,7 @@ class CaptureSource : public ByteSource {
       : name_("file:" + printable(path.string(), 200)), config_(config), file_(path, std::ios::binary) {
     if (!file_ || fs::is_directory(path)) throw Error(name_ + ": cannot be read");
     if (config.bytes_per_s < 0.0 || !std::isfinite(config.bytes_per_s)) {
-      throw Error(fmt::format("{}: {} is no byte rate", name_, config.bytes_per_s));
+      throw Error(fmt::format("{}: {} is not a byte rate", name_, config.bytes_per_s));
     }
     if (config.bytes_per_s > 0.0) {
       piece_bytes_ = static_cast<std::size_t>(std::clamp(config.bytes_per_s / kPieces_per_s, 1.0, 1e6));

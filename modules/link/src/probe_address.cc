@@ -38,7 +38,7 @@ std::optional<std::string_view> take_suffix(std::string_view& rest) {
 int baud_of(std::string_view text, std::optional<std::string_view> suffix) {
   if (!suffix) return 0;
   const auto baud = parse_int64(*suffix);
-  if (!baud || *baud < 50 || *baud > kMaxBaud) refuse(text, fmt::format("'{}' is no baud rate", printable(*suffix)));
+  if (!baud || *baud < 50 || *baud > kMaxBaud) refuse(text, fmt::format("'{}' is not a baud rate", printable(*suffix)));
   return static_cast<int>(*baud);
 }
 
@@ -50,7 +50,8 @@ std::uint16_t usb_number(std::string_view text, std::string_view digits) {
     sound = sound && digit != std::string_view::npos;
     value = 16 * value + static_cast<std::uint32_t>(sound ? digit : 0);
   }
-  if (!sound) refuse(text, fmt::format("'{}' is no USB number of at most four hexadecimal digits", printable(digits)));
+  if (!sound)
+    refuse(text, fmt::format("'{}' is not a USB number of at most four hexadecimal digits", printable(digits)));
   return static_cast<std::uint16_t>(value);
 }
 
@@ -72,7 +73,7 @@ void parse_udp(std::string_view text, std::string_view rest, ProbeAddress& out) 
   const std::string_view digits = colon == std::string_view::npos ? rest : rest.substr(colon + 1);
   const auto port = parse_int64(digits);
   if (!port || *port < 1 || *port > std::numeric_limits<std::uint16_t>::max()) {
-    refuse(text, fmt::format("'{}' is no port from 1 to 65535", printable(digits)));
+    refuse(text, fmt::format("'{}' is not a port from 1 to 65535", printable(digits)));
   }
   out.port = static_cast<std::uint16_t>(*port);
   if (colon == std::string_view::npos) return;
@@ -86,7 +87,7 @@ void parse_file(std::string_view text, std::string_view rest, ProbeAddress& out)
   if (const auto suffix = take_suffix(rest)) {
     const auto rate = parse_double(*suffix);
     if (!rate || !std::isfinite(*rate) || *rate < 1.0 || *rate > 1e9) {
-      refuse(text, fmt::format("'{}' is no byte rate from 1 to 1e9", printable(*suffix)));
+      refuse(text, fmt::format("'{}' is not a byte rate from 1 to 1e9", printable(*suffix)));
     }
     out.bytes_per_s = *rate;
   }
@@ -115,7 +116,7 @@ ProbeAddress parse_probe_address(std::string_view text) {
     out.kind = ProbeLinkKind::kFile;
     parse_file(text, rest, out);
   } else {
-    refuse(text, fmt::format("'{}' is no kind of link", printable(scheme)));
+    refuse(text, fmt::format("'{}' is not a kind of link", printable(scheme)));
   }
   const bool has_path = scheme == "serial" || scheme == "file";
   if (has_path && (out.path.empty() || out.path.find('\0') != std::string::npos)) refuse(text, "the name is missing");

@@ -51,7 +51,7 @@ Hint describe_hint(HintKind kind, const ScanHintFacts& facts) {
       hint.severity = value > config.marker_error_s ? HintSeverity::kError : HintSeverity::kWarning;
       hint.limit = config.marker_lost_s;
       hint.text = fmt::format(
-          "The marker has been out of sight for {:.1f} s. Turn it to the camera and keep your hand out of the way.",
+          "The marker has been out of sight for {:.1f} s. Point it to the camera and keep your hand away from it.",
           value);
       break;
     case HintKind::kAccelerometerSaturating:
@@ -90,7 +90,7 @@ Hint describe_hint(HintKind kind, const ScanHintFacts& facts) {
     case HintKind::kTiltingTooFast:
       hint.limit = config.tilt_rate_degps / kRadian_deg;
       hint.text =
-          fmt::format("The probe is turning at {:.0f} degrees/s. Keep its angle steady, below {:.0f} degrees/s.",
+          fmt::format("The probe is rotating at {:.0f} degrees/s. Keep its angle steady, below {:.0f} degrees/s.",
                       kRadian_deg * value, config.tilt_rate_degps);
       break;
     case HintKind::kDoublingBack:

@@ -128,6 +128,7 @@ EarlierScene read_earlier_scene(const fs::path& scene, const Observer& observer)
   EarlierScene out;
   out.file = scene.filename().string();
   out.folder = fs::weakly_canonical(fs::absolute(scene).parent_path());
+  out.given = scene.has_parent_path() ? scene.parent_path() : fs::path(".");
   out.checksum = scene_checksum(out.folder, out.file);
   out.scene = read_scene(scene, observer);
   out.files = files_of_ours(out.folder);
@@ -136,15 +137,15 @@ EarlierScene read_earlier_scene(const fs::path& scene, const Observer& observer)
     object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
   const fs::path registration = out.folder / kRegistration;
   if (!out.files.contains(kRegistration) || !fs::is_regular_file(registration)) return out;
-  out.registration = parse_json(read_file(registration, kLargestListing_bytes), printable(registration.string()), {},
-                                observer.without_progress());
+  const std::string name = printable((out.given / kRegistration).string());
+  out.registration = parse_json(read_file(registration, kLargestListing_bytes), name, {}, observer.without_progress());
   try {
     add_origins(out);
     if (const Json* placements = out.registration.find("placements")) {
       for (const Json& placement : placements->list()) placement.at("scans").list();
     }
   } catch (const Error& error) {
-    throw Error(printable(registration.string()) + ": is not a registration: " + error.what());
+    throw Error(name + ": is not a registration: " + error.what());
   }
   return out;
 }

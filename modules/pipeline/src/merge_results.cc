@@ -91,7 +91,7 @@ void judge_merged_noise(const MergedProfile& merged, const TextureNoise& noise, 
   if (!std::isfinite(noise.snr)) {
     out.push_back(make_verdict("error_unknown", "the noise of the merge is not known: not all strokes state theirs"));
   } else if (noise.snr < kInvisible_snr) {
-    out.push_back(make_verdict("below_noise", "the merged texture does not stand out of its noise"));
+    out.push_back(make_verdict("below_noise", "the merged texture is not above its noise"));
   } else if (noise.snr < kNoisy_snr) {
     out.push_back(make_verdict("noisy_texture", fmt::format("of the texture's {:.3g} µm RMS {:.3g} µm are expected to "
                                                             "be noise",
@@ -99,8 +99,8 @@ void judge_merged_noise(const MergedProfile& merged, const TextureNoise& noise, 
   }
   if (!std::isfinite(merged.noise_ratio_low) || !std::isfinite(merged.closest.ratio_high)) {
     out.push_back(make_verdict("passes_uncompared",
-                               "by how much the strokes differ is not determined: all of them together share less than "
-                               "12.8 mm of the line, or state no noise"));
+                               "the difference between the strokes is not determined: all of them together share less "
+                               "than 12.8 mm of the line, or state no noise"));
   }
 }
 
@@ -127,8 +127,9 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise, std
     names += (names.empty() ? "" : ", ") + printable(pass.name, 200);
   }
   if (!unlaid.empty())
-    out.push_back(make_verdict("passes_left_out", "their places could not be aligned with the others: " + unlaid));
-  if (!left.empty()) out.push_back(make_verdict("passes_left_out", "not over the same line as the others: " + left));
+    out.push_back(make_verdict("passes_left_out", "these passes could not be aligned with the others: " + unlaid));
+  if (!left.empty())
+    out.push_back(make_verdict("passes_left_out", "these passes are not over the same line as the others: " + left));
   judge_passes({merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high}, out);
   return out;
 }

@@ -52,7 +52,7 @@ PoseCandidates find_pose_candidates(const ScanPoints& scans, const RegistrationS
     const std::vector<Pose> anywhere = find_poses(smooth, ready, config.search, observer);
     candidates.insert(candidates.end(), anywhere.begin(), anywhere.end());
   }
-  if (candidates.empty()) throw Error("registration: there is no pose to begin from");
+  if (candidates.empty()) throw Error("registration: the search found no pose to begin from");
   out.found = weigh_poses(paths, ready, candidates, guess, weigh_config(scans, guess, config.refinement),
                           config.search.registration, observer);
   return out;

@@ -73,7 +73,7 @@ PathFile parse_path(std::string_view text, const std::string& name) {
       }
     }
     const std::int64_t t_ns = time ? csv.integer(*time) : static_cast<std::int64_t>(motion.size());
-    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) csv.fail(*time, std::to_string(t_ns) + " ns is no time");
+    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) csv.fail(*time, std::to_string(t_ns) + " ns is not a valid time");
     if (!motion.t_ns.empty() && t_ns <= motion.t_ns.back()) csv.fail(*time, "time does not rise");
     motion.t_ns.push_back(t_ns);
     motion.p_world_tip_m.push_back(p_m);
@@ -86,7 +86,7 @@ PathFile parse_path(std::string_view text, const std::string& name) {
     }
   }
   if (motion.size() == 0) throw Error(name + ": no row with a position");
-  if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were passed over", passed_over});
+  if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were skipped", passed_over});
   return out;
 }
 

@@ -87,7 +87,7 @@ void refer_trajectory(const Recording& recording, Reference reference, const Obj
   const double seen_share = static_cast<double>(tip.size()) / static_cast<double>(samples);
   trajectory.metrics["object_seen_share"] = seen_share;
   if (seen_share < kHardlySeen) {
-    trajectory.problems.push_back({"object_unseen", "the object's body was seen next to never", 1});
+    trajectory.problems.push_back({"object_unseen", "the object's body was almost never seen", 1});
     return;
   }
   if (tip.size() < samples) {

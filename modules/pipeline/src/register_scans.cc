@@ -189,7 +189,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
       return 0;
     });
     if (scan.path.size() < 2) {
-      add_verdict(out, "no_path_on_mesh", printable(scan.name, 200) + ": the path does not lie on the mesh");
+      add_verdict(out, "no_path_on_mesh", printable(scan.name, 200) + ": the path is not on the mesh");
       scan.path = {};
     }
     mesh_paths.push_back(scan.path);
@@ -213,7 +213,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
     out.coordinates = {};
     out.coordinates.triangles.resize(surface.mesh.triangles.size());
     out.coordinates.warps.resize(mesh_paths.size());
-    add_verdict(out, "no_haptic_coordinates", std::string("there are no haptic coordinates: ") + error.what());
+    add_verdict(out, "no_haptic_coordinates", std::string("haptic coordinates could not be computed: ") + error.what());
   }
   append_problems(out.problems, out.coordinates.problems);
   observer.update("coordinates", 1.0);

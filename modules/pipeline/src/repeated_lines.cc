@@ -34,7 +34,7 @@ bool is_one_line(const MergedProfile& merged) {
 std::string why_not_laid(const MergedProfile& merged) {
   if (!merged.agrees) return "they do not agree by more than chance gives";
   if (2 * merged.used <= merged.passes.size()) return "fewer than half of them agree by more than chance gives";
-  if (!std::isfinite(merged.lines_over_noise)) return "by how much they differ is not known";
+  if (!std::isfinite(merged.lines_over_noise)) return "their difference is not known";
   if (merged.noise_scale > kMostNoise_scale)
     return fmt::format("they differ by more than the noise that they state explains, {:.2g} times its power",
                        merged.noise_scale);

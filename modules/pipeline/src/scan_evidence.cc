@@ -186,8 +186,8 @@ Verdicts judge_pose(const RegistrationResult& registration, bool guessed) {
                                      [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
   // Where the pose was weighed, the standard deviations say it, and leave out what the mesh is its own image along.
   if (!guessed && arbitrary && !registration.rivals.judged) {
-    out.push_back(
-        make_verdict("pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
+    out.push_back(make_verdict("pose_arbitrary",
+                               "without a guess, the position of the scans along undetermined motions is arbitrary"));
     sort_verdicts(out);
   }
   return out;

@@ -128,14 +128,16 @@ Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m)
   return std::move(earlier.scene);
 }
 
-bool is_registration_folder(const fs::path& folder) noexcept {
+FolderContent is_registration_folder(const fs::path& folder) noexcept {
   try {
     const fs::path file = folder / "registration.json";
     if (!fs::is_regular_file(file)) return false;
     const std::set<std::string> ours = listed_files(file);
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.is_directory() || entry.path().filename() == "report.html") continue;
-      if (!ours.contains(fs::relative(entry.path(), folder).generic_string())) return false;
+      const fs::path name = fs::relative(entry.path(), folder);
+      if (!ours.contains(name.generic_string()))
+        return ours.empty() ? FolderContent(false) : FolderContent::with_added(name);
     }
     return true;
   } catch (const std::exception&) {

@@ -78,26 +78,32 @@ bool is_result_file(const fs::path& file) {
 }
 
 // Nothing but the files of one result.
-bool is_one_result(const fs::path& folder) {
+FolderContent is_one_result(const fs::path& folder) {
   constexpr std::array<std::string_view, 6> kOurs{"trajectory.csv", "profile.csv", "spectrum.csv",
                                                   "texture.json",   "result.json", "report.html"};
   if (!fs::is_regular_file(folder / "result.json") || !is_result_file(folder / "result.json")) return false;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end()) return false;
+    if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end())
+      return FolderContent::with_added(entry.path().filename());
   }
   return true;
 }
 
 // One result, or nothing but folders that hold results, at most `deepest` levels of them, and a report of them all.
-bool holds_results(const fs::path& folder, int deepest) {
+FolderContent holds_results(const fs::path& folder, int deepest) {
   if (fs::is_regular_file(folder / "result.json")) return is_one_result(folder);
   bool any = false;
+  fs::path added;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().filename() == "report.html") continue;
-    if (deepest == 0 || !entry.is_directory() || !holds_results(entry.path(), deepest - 1)) return false;
-    any = true;
+    const fs::path name = entry.path().filename();
+    if (entry.is_regular_file() && name == "report.html") continue;
+    const bool may_hold = deepest > 0 && entry.is_directory();
+    const FolderContent content = may_hold ? holds_results(entry.path(), deepest - 1) : FolderContent(false);
+    any = any || content || !content.added.empty();
+    if (!content && added.empty()) added = content.added.empty() ? name : name / content.added;
   }
-  return any;
+  // Without a single result it is nobody's addition to one.
+  return any && !added.empty() ? FolderContent::with_added(added) : FolderContent(any);
 }
 
 }  // namespace
@@ -155,7 +161,7 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Jso
   write_file(folder / "result.json", result_text(json));  // last: by it a folder is a result
 }
 
-bool is_result_folder(const fs::path& folder) noexcept {
+FolderContent is_result_folder(const fs::path& folder) noexcept {
   constexpr int kDeepest = 2;  // recordings, and their segments
   try {
     return holds_results(folder, kDeepest);

@@ -75,6 +75,10 @@ TEST(WriteResult, KnowsItsOwnFolders) {
   EXPECT_TRUE(is_result_folder(dir / "out"));
   write_file(dir / "out" / "notes.txt", "mine");
   EXPECT_FALSE(is_result_folder(dir / "out"));
+  EXPECT_EQ(is_result_folder(dir / "out").added.string(), "notes.txt");
+  fs::rename(dir / "out" / "notes.txt", dir / "out" / "one" / "notes.txt");
+  EXPECT_EQ(is_result_folder(dir / "out").added.string(), "one/notes.txt");
+  EXPECT_EQ(is_result_folder(dir / "out" / "one").added.string(), "notes.txt");
   fs::create_directories(dir / "other");
   for (const char* text : {"", "[", "[]", R"({"format":3})", R"({"format":"something"})"}) {
     write_file(dir / "other" / "result.json", text);

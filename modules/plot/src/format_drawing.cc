@@ -21,7 +21,7 @@ const PlotLibrary& load_plot_library() {
   const PlotLibrary* const table = entry();
   if (table->program != std::string_view(kVersion) || table->compiler != std::string_view(__VERSION__)) {
     throw Error(std::string("plot: libasperity_plot.so is asperity ") + table->program + " by compiler " +
-                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both anew");
+                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both again");
   }
   return *table;
 }

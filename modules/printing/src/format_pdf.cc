@@ -17,7 +17,7 @@ constexpr double kLargest_mm = 1e4;  // of any coordinate: what is farther is a 
 
 // Without an exponent, which PDF does not have.
 std::string number(double value, int digits = 6) {
-  if (!(std::abs(value) <= kLargest_mm)) throw Error(fmt::format("pdf: {} mm is not a place on a page", value));
+  if (!(std::abs(value) <= kLargest_mm)) throw Error(fmt::format("pdf: {} mm is not a position on a page", value));
   std::string out = fmt::format("{:.{}f}", value, digits);
   while (out.back() == '0') out.pop_back();
   if (out.back() == '.') out.pop_back();

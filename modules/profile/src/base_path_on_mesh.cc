@@ -94,7 +94,8 @@ BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d&
   if (axis_sum < 0.0) {
     for (Eigen::Vector3d& outward : out.path.n_world) outward = -outward;
     for (double& height : height_m) height = -height;
-    out.problems.push_back({"inward_normals", "the probe is on the inner side of the mesh: its normals are turned", 1});
+    out.problems.push_back(
+        {"inward_normals", "the probe is on the inner side of the mesh: its normals were reversed", 1});
   }
   if (beyond > 0) {
     out.problems.push_back({"beyond_the_mesh",

@@ -129,7 +129,7 @@ TipRadiusBound bound_tip_radius(const Profile& profile, const TextureNoise& nois
   if (out.determined) {
     out.at_most_m = 1.0 / sharpest;
   } else {
-    out.reason = "no peak stands out of the noise";
+    out.reason = "no peak is above the noise";
   }
   return out;
 }

@@ -67,8 +67,9 @@ void estimate_coefficient(const ComplianceWindows& windows, const ComplianceConf
 std::string missing_windows(const ComplianceWindows& windows, const ComplianceConfig& config) {
   if (static_cast<double>(windows.lost) > kMostLost * static_cast<double>(windows.moving)) {
     return fmt::format(
-        "not determined: the tip left the surface in {:.0f} % of the strokes: press harder or move slower",
-        100.0 * static_cast<double>(windows.lost) / static_cast<double>(windows.moving));
+        "not determined: in {:.0f} % of the sections of {:g} mm the force falls below a quarter of its mean, as where "
+        "the tip leaves the surface; press harder or move slower",
+        100.0 * static_cast<double>(windows.lost) / static_cast<double>(windows.moving), config.window_mm);
   }
   return fmt::format("not determined: the strokes have {} sections of {:g} mm with force, {} are needed",
                      windows.force_N.size(), config.window_mm, config.min_windows);
@@ -135,8 +136,8 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
   // On a soft surface the texture may stand out where the force is light only.
   if (!(percentile(windows.power, 90.0) > 3.0 * mean(windows.noise))) {
     out.verdict = fmt::format(
-        "not determined: no waves of {:.2g} to {:.2g} mm are above the noise at rest: move faster, or on a rougher "
-        "area",
+        "not determined: no waves of {:.2g} to {:.2g} mm are above the noise of the stationary probe; move faster, or "
+        "on a rougher area",
         1.0 / config.max_cycles_per_mm, 1.0 / config.min_cycles_per_mm);
     return out;
   }

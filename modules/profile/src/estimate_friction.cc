@@ -83,7 +83,7 @@ FrictionEstimate estimate_friction(const TipMotion& motion, const BasePath& path
     throw Error("friction: motion, force, base path and contact differ in size (" + std::to_string(n) + " samples)");
   }
   if (n == 0) {
-    out.verdict = "not measured: there is no motion";
+    out.verdict = "not measured: the recording has no motion";
     return out;
   }
   const Rubbing rubbing = look_at_samples(motion, path, contact, config);

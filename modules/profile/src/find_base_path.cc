@@ -178,8 +178,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   const PathEvidence evidence = gather_evidence(motion, t_s, out.contact, tip_in_marker_m, config);
   const bool axis_known = tip_in_marker_m.norm() > 0.0;
   if (!axis_known) {
-    out.problems.push_back(
-        {"no_probe_axis", "the tip lies at the marker's origin: which side is outward is not known"});
+    out.problems.push_back({"no_probe_axis", "the tip is at the marker's origin: the outward side is not known"});
   }
 
   PlaneCandidate plane = fit_plane_candidate(evidence, config);
@@ -268,7 +267,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   follow_path(motion, t_s, developed, config, out);
   if (out.shape == PathShape::kCurve && !out.turning_points.empty()) {
     out.problems.push_back(
-        {"curve_with_turns", "a base curve is not reliable near turning points", out.turning_points.size()});
+        {"curve_with_turns", "a base curve is not reliable near reversals", out.turning_points.size()});
   }
   return out;
 }

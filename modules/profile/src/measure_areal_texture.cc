@@ -78,7 +78,7 @@ Eigen::VectorXd subtract_polynomial(ArealMap& map, Eigen::Index terms) {
   }
   const LeastSquares fit = least_squares(normal, right);
   if (fit.rank < terms)
-    throw Error("areal roughness: the heights present lie on a line and fix no plane, or no quadric");
+    throw Error("areal roughness: the heights are on one line, which does not determine a plane or a quadric");
   const Eigen::VectorXd form = fit.x.col(0);
   for (std::size_t i = 0; i < map.height_m.size(); ++i) {
     if (!std::isnan(map.height_m[i])) map.height_m[i] -= basis(i).dot(form);

@@ -202,7 +202,7 @@ NoiseAtRest noise_at_rest(std::span<const double> t_s, std::span<const double> f
   const std::size_t n = t_s.size();
   bool equal = resting.size() == n && (force_N.empty() || force_N.size() == n);
   for (const AccelerationAtRest& direction : directions) equal = equal && direction.accel_mps2.size() == n;
-  if (!equal) throw Error("noise at rest: times, samples and marks differ in size (" + std::to_string(n) + " times)");
+  if (!equal) throw Error("static noise: times, samples and marks differ in size (" + std::to_string(n) + " times)");
   NoiseAtRest out;
   const std::vector<Run> rests = find_rests(t_s, resting);
   if (!(white_m2ps3 > 0.0) || rests.empty()) return out;

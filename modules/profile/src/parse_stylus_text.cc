@@ -101,7 +101,7 @@ Heights grid_of(const std::vector<std::array<double, 3>>& rows, const std::strin
   ArealMap map;
   while (map.columns < rows.size() && rows[map.columns][1] == rows[0][1]) ++map.columns;
   if (map.columns < 2 || rows.size() % map.columns != 0 || rows.size() == map.columns)
-    throw Error(fmt::format("{}: its {} points are no full grid of rows along x", name, rows.size()));
+    throw Error(fmt::format("{}: its {} points are not a full grid of rows along x", name, rows.size()));
   map.rows = rows.size() / map.columns;
   map.x_spacing_m = (rows[map.columns - 1][0] - rows[0][0]) / static_cast<double>(map.columns - 1);
   map.y_spacing_m = (rows.back()[1] - rows[0][1]) / static_cast<double>(map.rows - 1);

@@ -94,7 +94,7 @@ TEST(ArealRoughness, RefusesWhatHasNoMeaning) {
                [](double, double y) { return y > 1e-6 ? std::numeric_limits<double>::quiet_NaN() : 0.0; });
   for (std::size_t i = 4; i < 8; ++i) map.height_m[i] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { measure_areal_texture(map, {.max_missing = 0.9}); },
-              ThrowsMessage<Error>(HasSubstr("lie on a line")));
+              ThrowsMessage<Error>(HasSubstr("are on one line")));
 }
 
 }  // namespace

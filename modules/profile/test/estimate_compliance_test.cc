@@ -164,13 +164,15 @@ TEST(EstimateCompliance, SaysWhatIsMissing) {
   EXPECT_THAT(c.verdict, HasSubstr("8 are needed"));
 
   c = estimate(scan({.noise_mps2 = 1.0, .fall = [](double) { return 0.0; }}));
-  EXPECT_THAT(c.verdict, HasSubstr("above the noise at rest"));
+  EXPECT_THAT(c.verdict, HasSubstr("above the noise of the stationary probe"));
 
   TipMotion motion = scan({});
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (std::isfinite(motion.force_N[i]) && i % 40 < 10) motion.force_N[i] = 0.0;
   c = estimate(motion);
-  EXPECT_THAT(c.verdict, HasSubstr("the tip left the surface in 100 %"));
+  // Every section, of a scan that has heights all along: it is no share of the path.
+  EXPECT_EQ(c.lost_fraction, 1.0);
+  EXPECT_THAT(c.verdict, HasSubstr("in 100 % of the sections of 4 mm the force falls below a quarter of its mean"));
 
   motion.force_N.assign(motion.size(), std::nan(""));
   EXPECT_EQ(estimate(motion).verdict, "not determined: no force was measured");

@@ -161,7 +161,7 @@ TEST(ReadHeights, TablesOfStylusInstruments) {
   expect_error("x [mm];z [um]\n0;1\n1;2\n5;2\n", "its positions are not even: row 2");
   expect_error("x [mm];z [um]\n0;1\n1;2\nend of data\n", "f.csv:4: 'end of data' is not a row of 2 numbers");
   expect_error("x [mm];z [um]\n0;1\n1;1e12\n", "f.csv:3: '1;1e12' is more than ten metres");
-  expect_error("x [mm];y [mm];z [um]\n0;0;1\n1;0;2\n0;1;1\n", "no full grid");
+  expect_error("x [mm];y [mm];z [um]\n0;0;1\n1;0;2\n0;1;1\n", "not a full grid");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr std::int64_t kFewestIdleSamples = 8;  // for a noise worth the name
 
 void check_thresholds(const char* low_name, double low, const char* high_name, double high) {
   if (low > high) {
-    throw Error(std::string("contact.") + low_name + " (" + number_text(low) + ") lies above contact." + high_name +
+    throw Error(std::string("contact.") + low_name + " (" + number_text(low) + ") is above contact." + high_name +
                 " (" + number_text(high) + ")");
   }
 }

@@ -128,7 +128,7 @@ class Recorder::Parts {
         probe_rate_(start_ns_),
         pose_rate_(start_ns_) {
     check_new(folder);
-    if (!sensors.open_probe) throw Error("recorder: there is no probe");
+    if (!sensors.open_probe) throw Error("recorder: the probe is missing");
     probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, sensors.reopen_silent_probe, config);
     if (sensors.open_poses)
       poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, sensors.reopen_silent_poses, config);

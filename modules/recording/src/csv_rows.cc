@@ -56,7 +56,7 @@ std::optional<std::int64_t> row_time(const CsvReader& csv, std::size_t column, R
   const std::int64_t t_ns = csv.integer(column);
   if (t_ns < -kLatestTime_ns || t_ns > kLatestTime_ns) {
     problems.add("time_far_off", csv.line(),
-                 "the time lies beyond a gap too long for one recording; such rows were left out");
+                 "the time is beyond a gap that is too long for one recording; such rows were left out");
     return std::nullopt;
   }
   return t_ns;

@@ -124,8 +124,8 @@ Segment find_segment(const Recording& recording, const std::string& name) {
     found = &segment;
   }
   if (found == nullptr) {
-    throw Error("there is no segment '" + printable(name) + "'" +
-                (names.empty() ? "; the recording has none" : "; there are: " + names));
+    throw Error("the recording has no segment '" + printable(name) + "'" +
+                (names.empty() ? "; it has no segments" : "; its segments: " + names));
   }
   return *found;
 }

@@ -60,15 +60,14 @@ void judge_channels(const Recording& recording, const Inspection& inspection, co
 void judge_gravity(const Recording& recording, const QuietInterval& quiet, const InspectConfig& config, Findings& out) {
   const double gravity_mps2 = recording.info.gravity_world_mps2.norm();
   if (std::abs(quiet.gravity_mps2 - gravity_mps2) > config.gravity_tolerance * gravity_mps2) {
-    out.push_back(
-        fmt::format("At rest the accelerometer reads {:.3f} m/s² where gravity is {:.3f} m/s²: "
-                    "its calibration does not fit.",
-                    quiet.gravity_mps2, gravity_mps2));
+    out.push_back(fmt::format(
+        "The stationary accelerometer reads {:.3f} m/s² where gravity is {:.3f} m/s²: its calibration does not fit.",
+        quiet.gravity_mps2, gravity_mps2));
   }
   if (quiet.gravity_angle_rad > config.gravity_angle_tolerance_rad) {
     out.push_back(
-        fmt::format("At rest the accelerometer's up is {:.1f}° from the world's: gravity_world_mps2, the pose "
-                    "or the accelerometer's rotation is wrong.",
+        fmt::format("The up direction of the stationary accelerometer is {:.1f}° from the world's: gravity_world_mps2, "
+                    "the pose or the accelerometer's rotation is wrong.",
                     quiet.gravity_angle_rad * 180.0 / std::numbers::pi));
   }
 }
@@ -76,13 +75,14 @@ void judge_gravity(const Recording& recording, const QuietInterval& quiet, const
 void judge_quiet_interval(const Recording& recording, const Inspection& inspection, const InspectConfig& config,
                           Findings& out) {
   if (!inspection.quiet) {
-    out.push_back(fmt::format("There is no stretch of {:g} s without a gap to measure noise in.", config.quiet_s));
+    out.push_back(fmt::format("No stretch of {:g} s is without a gap: noise was not measured.", config.quiet_s));
     return;
   }
   const QuietInterval& quiet = *inspection.quiet;
   if (!quiet.at_rest) {
-    out.push_back(fmt::format(
-        "The probe is never at rest for {:g} s; hold it still at the start to check its calibration.", config.quiet_s));
+    out.push_back(
+        fmt::format("The probe is never stationary for {:g} s; hold it still at the start to check its calibration.",
+                    config.quiet_s));
     return;
   }
   judge_gravity(recording, quiet, config, out);
@@ -90,7 +90,7 @@ void judge_quiet_interval(const Recording& recording, const Inspection& inspecti
   const Eigen::Vector3d& sigma_m = recording.calibration.tracker.sigma_position_m;
   if ((quiet.position_noise_m.array() > kWorse * sigma_m.array()).any()) {
     out.push_back(
-        fmt::format("At rest the tracker's noise is ({:.3f}, {:.3f}, {:.3f}) mm; its calibration says "
+        fmt::format("The noise of the stationary tracker is ({:.3f}, {:.3f}, {:.3f}) mm; its calibration states "
                     "({:.3f}, {:.3f}, {:.3f}) mm.",
                     1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(),
                     1e3 * quiet.position_noise_m.z(), 1e3 * sigma_m.x(), 1e3 * sigma_m.y(), 1e3 * sigma_m.z()));
@@ -107,8 +107,9 @@ Findings find_findings(const Recording& recording, const Inspection& inspection,
   judge_channels(recording, inspection, config, out);
   judge_quiet_interval(recording, inspection, config, out);
   if (inspection.flips > 0) {
-    out.push_back(fmt::format("{} poses jump away from their neighbours, as a marker seen the wrong way round does.",
-                              inspection.flips));
+    out.push_back(fmt::format("{} far from {} neighbours, as when the mirrored tilt of a marker is taken for its tilt.",
+                              inspection.flips == 1 ? "1 pose is" : fmt::format("{} poses are", inspection.flips),
+                              inspection.flips == 1 ? "its" : "their"));
   }
   const double allowed_N = std::max(0.2, 5.0 * recording.calibration.force.residual_newton);
   if (inspection.force_lowest_N < -allowed_N) {

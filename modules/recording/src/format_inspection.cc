@@ -109,7 +109,7 @@ std::string inspection_text(const Inspection& inspection) {
   if (inspection.quiet) {
     const QuietInterval& quiet = *inspection.quiet;
     out += fmt::format("\nquietest {:.2f} s from {:.2f} s: {}\n", quiet.duration_s, quiet.start_s,
-                       quiet.at_rest ? "at rest" : "not at rest");
+                       quiet.at_rest ? "stationary" : "not stationary");
     out += fmt::format("  specific force {} m/s², noise {} m/s², force {} N\n", shown(quiet.gravity_mps2, 4),
                        shown_vector(quiet.acceleration_noise_mps2, 4), shown(quiet.force_N, 3));
     out += fmt::format("  tracker noise {} mm, {} mrad over {} poses\n", shown_vector(1e3 * quiet.position_noise_m, 3),

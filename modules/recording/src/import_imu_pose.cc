@@ -123,8 +123,8 @@ Calibration known_calibration(const ImportInput& input, const ImportConfig& conf
 }
 
 void check_import(const ImportInput& input) {
-  if (input.imu_t_ns.empty()) throw Error("import: there are no inertial samples");
-  if (input.pose_t_ns.empty()) throw Error("import: there are no poses");
+  if (input.imu_t_ns.empty()) throw Error("import: the inertial samples are missing");
+  if (input.pose_t_ns.empty()) throw Error("import: the poses are missing");
   const bool equal =
       input.specific_force_mps2.size() == input.imu_t_ns.size() && input.rate_radps.size() == input.imu_t_ns.size() &&
       input.T_world_body.size() == input.pose_t_ns.size() && input.T_world_object.size() == input.object_t_ns.size();

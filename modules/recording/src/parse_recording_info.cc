@@ -26,7 +26,7 @@ Segment read_segment(JsonObject object) {
   for (const auto& [key, target] : {std::pair{"start_ns", &out.start_ns}, {"end_ns", &out.end_ns}}) {
     *target = object.required(key).integer(-kLatestTime_ns, kLatestTime_ns);
   }
-  if (out.end_ns < out.start_ns) object.fail("end_ns", "lies before start_ns");
+  if (out.end_ns < out.start_ns) object.fail("end_ns", "is before start_ns");
   object.finish();
   return out;
 }

@@ -14,14 +14,14 @@ namespace {
 Eigen::Vector3d slow_sample(const CsvReader& csv, const Columns3& columns, double limit, RowProblems& problems) {
   Eigen::Vector3d sample = numbers3(csv, columns);
   if (sample.array().isNaN().all() || within(sample, limit)) return sample;
-  problems.add("bad_sample", csv.line(), "a sample that is no reading; it was taken as missing");
+  problems.add("bad_sample", csv.line(), "a sample is not a valid reading; it counts as missing");
   return Eigen::Vector3d::Constant(kNan);
 }
 
 double slow_sample(const CsvReader& csv, std::size_t column, double limit, RowProblems& problems) {
   const double sample = number_or_nan(csv, column);
   if (std::isnan(sample) || std::abs(sample) <= limit) return sample;
-  problems.add("bad_sample", csv.line(), "a sample that is no reading; it was taken as missing");
+  problems.add("bad_sample", csv.line(), "a sample is not a valid reading; it counts as missing");
   return kNan;
 }
 
@@ -81,7 +81,7 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
     const Eigen::Vector3d sample = numbers3(csv, accel);
     const bool none = csv.empty(accel[0]) && csv.empty(accel[1]) && csv.empty(accel[2]);
     if (!none && !within(sample, limits.largest_counts)) {
-      row_problems.add("bad_acceleration", csv.line(), "the acceleration is no reading; the row was left out");
+      row_problems.add("bad_acceleration", csv.line(), "the acceleration is not a valid reading; the row was left out");
       continue;
     }
     out.t_ns.push_back(*t_ns);
@@ -122,7 +122,7 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
     if (!pose) continue;
     if (markers) {
       const std::int64_t seen = csv.empty(*markers) ? 0 : csv.integer(*markers);
-      if (seen < 0 || seen > 1'000'000) csv.fail(*markers, "is no number of markers");
+      if (seen < 0 || seen > 1'000'000) csv.fail(*markers, "is not a number of markers");
       out.markers.push_back(static_cast<int>(seen));
     }
     if (reprojection) out.reprojection_px.push_back(number_or_nan(csv, *reprojection));

@@ -33,7 +33,7 @@ std::optional<Pose> row_pose(const CsvReader& csv, const PoseColumns& columns, c
     case QuaternionState::kUnusable:
       break;
   }
-  problems.add("bad_quaternion", csv.line(), "the quaternion is no rotation; the row was left out");
+  problems.add("bad_quaternion", csv.line(), "the quaternion is not a rotation; the row was left out");
   return std::nullopt;
 }
 

@@ -20,7 +20,7 @@ std::optional<std::int64_t> row_seconds(const CsvReader& csv, std::size_t column
   }
   if (std::abs(t_ns) > static_cast<double>(kLatestTime_ns)) {
     problems.add("time_far_off", csv.line(),
-                 "the time lies beyond a gap too long for one recording; such rows were left out");
+                 "the time is beyond a gap that is too long for one recording; such rows were left out");
     return std::nullopt;
   }
   return std::llround(t_ns);
@@ -41,7 +41,7 @@ void parse_imu_csv(std::string_view text, const std::string& name, ImportInput& 
     const Eigen::Vector3d f = numbers3(csv, force);
     const Eigen::Vector3d omega = numbers3(csv, rate);
     if (!within(f, limits.largest_counts) || !within(omega, limits.largest_counts)) {
-      problems.add("bad_sample", csv.line(), "a sample that is no reading; the row was left out");
+      problems.add("bad_sample", csv.line(), "a sample is not a valid reading; the row was left out");
       continue;
     }
     input.imu_t_ns.push_back(*t_ns);

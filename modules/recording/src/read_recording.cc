@@ -93,7 +93,7 @@ Recording read_head(const fs::path& folder, const ReadLimits& limits, const Obse
   out.info = parse_recording_info(read_file(info, limits.json_bytes), info.string(), limits, observer);
   const fs::path calibration = own_file(folder, "calibration.json");
   if (!fs::exists(calibration, error)) {
-    throw Error(folder.string() + ": calibration.json is missing; counts and poses mean nothing without it");
+    throw Error(folder.string() + ": calibration.json is missing; without it counts and poses have no units");
   }
   out.calibration = read_calibration(calibration, limits, observer);
   return out;

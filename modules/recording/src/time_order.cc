@@ -86,7 +86,7 @@ RowOrder order_rows(const std::vector<std::int64_t>& t_ns, const std::vector<std
     for (const std::size_t row : distinct) {
       if (t_ns[row] < first_ns || t_ns[row] > last_ns) {
         problems.add("time_far_off", line[row],
-                     "the time lies beyond a gap too long for one recording; such rows were left out");
+                     "the time is beyond a gap that is too long for one recording; such rows were left out");
       }
     }
   }

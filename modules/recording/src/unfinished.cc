@@ -40,7 +40,7 @@ std::string discarded_names(const RecorderState& recorder) {
 void close_unfinished(Recording& recording) {
   if (!recording.info.recorder || recording.info.recorder->state != "recording") return;
   const RecorderState& recorder = *recording.info.recorder;
-  recording.problems.push_back({"unfinished", "the recorder did not come to its end; what it had stored is there"});
+  recording.problems.push_back({"unfinished", "the recorder was interrupted; the data that it had stored are kept"});
   if (const std::string names = discarded_names(recorder); !names.empty()) {
     recording.problems.push_back({"discarded_rows", "rows of segments that were discarded are still in its files: " +
                                                         names + " (recording.json, extra.recorder.discarded)"});

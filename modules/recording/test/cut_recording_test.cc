@@ -90,7 +90,7 @@ TEST(FindSegment, NamesWhatThereIs) {
   recording.info.segments = {{"rest", 0, 1}, {"stroke", 1, 2}, {"rest", 2, 3}};
   EXPECT_EQ(find_segment(recording, "stroke").start_ns, 1);
   EXPECT_THAT([&] { find_segment(recording, "x"); },
-              testing::ThrowsMessage<Error>(testing::HasSubstr("there are: rest, stroke, rest")));
+              testing::ThrowsMessage<Error>(testing::HasSubstr("its segments: rest, stroke, rest")));
   EXPECT_THAT([&] { find_segment(recording, "rest"); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("more than one")));
 }

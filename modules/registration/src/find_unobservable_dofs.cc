@@ -181,8 +181,8 @@ void append_uncertain_rotations(const PathChain& chain, double limit_rad, Regist
     motion.shift_m = scale * shift;
     motion.centre_mesh_m = result.centre_mesh_m;
     motion.sigma_m = sigma_rad / scale;
-    motion.description = fmt::format("turns about ({:.2f}, {:.2f}, {:.2f}) are known to {:.1f} degrees only", axis.x(),
-                                     axis.y(), axis.z(), sigma_rad * 180.0 / std::numbers::pi);
+    motion.description = fmt::format("rotations about ({:.2f}, {:.2f}, {:.2f}) are known to {:.1f} degrees only",
+                                     axis.x(), axis.y(), axis.z(), sigma_rad * 180.0 / std::numbers::pi);
     result.undetermined.push_back(motion);
   }
 }
@@ -204,12 +204,12 @@ UndeterminedMotion describe_motion(const Vector6& motion, const Eigen::Vector3d&
     return fmt::format("({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
   };
   if (rotation_rad * radius_m < 0.1 * out.shift_m.norm()) {
-    out.description = "slides along " + direction(out.shift_m);
+    out.description = "sliding along " + direction(out.shift_m);
     return out;
   }
   const Eigen::Vector3d axis = out.rotation_rad / rotation_rad;
   const Eigen::Vector3d through_m = centre_m + axis.cross(out.shift_m) / rotation_rad;
-  out.description = fmt::format("turns about the axis through ({:.1f}, {:.1f}, {:.1f}) mm along {}",
+  out.description = fmt::format("rotation about the axis through ({:.1f}, {:.1f}, {:.1f}) mm along {}",
                                 1e3 * through_m.x(), 1e3 * through_m.y(), 1e3 * through_m.z(), direction(axis));
   const double along_m = axis.dot(out.shift_m);
   if (std::abs(along_m) > 0.1 * rotation_rad * radius_m) out.description += ", sliding along it";

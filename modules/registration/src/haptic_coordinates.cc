@@ -199,7 +199,7 @@ OnePath coordinates_along(const TriangleMesh& mesh, const MeshAdjacency& adjacen
   std::sort(along.begin(), along.end());
   along.erase(std::unique(along.begin(), along.end()), along.end());
   const double edge_m = mean_edge_m(mesh, along);
-  if (!(edge_m > 0.0)) throw Error("haptic coordinates: the path lies on triangles without size");
+  if (!(edge_m > 0.0)) throw Error("haptic coordinates: the path is on triangles without area");
   const double half_window_m = std::max(1e-3 * config.smoothing_mm, config.smoothing_edges * edge_m);
   const SurfacePath smooth = make_surface_path(mesh, adjacency, path, half_window_m, edge_m);
   if (smooth.pieces.empty()) throw Error("haptic coordinates: the path stays at one point of the mesh");

@@ -17,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 Pose align_manually(const ManualAlignment& alignment) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!std::isfinite(alignment.shift_m[k]) || !std::isfinite(alignment.rotation_deg[k])) {
-      throw Error(fmt::format("manual alignment: axis {}: shift {} m, turn {} deg is not finite", "xyz"[k],
+      throw Error(fmt::format("manual alignment: axis {}: shift {} m or rotation {} deg is not finite", "xyz"[k],
                               alignment.shift_m[k], alignment.rotation_deg[k]));
     }
   }
@@ -50,7 +50,10 @@ ManualAlignment manual_alignment(const Pose& T_mesh_world) {
 AbsoluteOrientation align_picked(std::span<const Eigen::Vector3d> p_world_m,
                                  std::span<const Eigen::Vector3d> p_mesh_m) {
   AbsoluteOrientation out = absolute_orientation(p_world_m, p_mesh_m);
-  if (out.collinear) throw Error("picked points: they lie on a line; the turn about it is not determined");
+  if (out.collinear)
+    throw Error(
+        "picked points: they are on one line, so that the rotation about it is not determined; pick a further point "
+        "off the line");
   return out;
 }
 

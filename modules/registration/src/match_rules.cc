@@ -47,8 +47,8 @@ void check_facing(const RegistrationSurface& surface, const PointSet& points, co
   } else if (10 * against > 9 * given) {
     rules.facing_cos = -1.0;
     problems.push_back({"outward_into_mesh",
-                        "the probe's directions point into the mesh: its triangles may be turned inside out, or the "
-                        "guess is wrong; the directions were not used",
+                        "the probe's directions point into the mesh: its triangles may be inside out, or the guess is "
+                        "wrong; the directions were not used",
                         against});
   }
 }

@@ -27,7 +27,7 @@ double log_pose_space(const RegistrationSurface& surface) {
 }  // namespace
 
 PlacementFit best_placement(std::span<const WeighedPose> found, const RegistrationSurface& surface) {
-  if (found.empty()) throw Error("registration: there is no pose to begin from");
+  if (found.empty()) throw Error("registration: the search found no pose to begin from");
   const auto log_mass = [](const WeighedPose& pose) { return pose.log_volume - 0.5 * pose.fit; };
   const auto best = std::max_element(found.begin(), found.end(), [&](const WeighedPose& a, const WeighedPose& b) {
     return log_mass(a) < log_mass(b);

@@ -80,7 +80,7 @@ PointSet gather_points(std::span<const MeasuredPath> paths, Problems& problems) 
   }
   out.radius_m = std::sqrt(square / static_cast<double>(out.size()));
   if (!(out.radius_m > 0.0) || !std::isfinite(out.radius_m)) {
-    throw Error("registration: all points of the path coincide, or lie too far apart for their squares");
+    throw Error("registration: all points of the path coincide, or are too far apart for their squares");
   }
   out.scatter_m2 /= static_cast<double>(out.size());
   out.sigma_m = sigma_sum / static_cast<double>(out.size());

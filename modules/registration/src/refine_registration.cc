@@ -118,18 +118,18 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
       unheld(chain, surface, {{prior.T_mesh_world, start.centre_mesh_m, {}}}, config);
   const State first = registration::zero_state(chain, {start.T_mesh_world});
   const FacetHeights heights = problem.heights(first);
-  if (heights.count < kLeastPoints || !(chain.spacing_m > 0.0)) return give_up("too few points lie over the mesh");
+  if (heights.count < kLeastPoints || !(chain.spacing_m > 0.0)) return give_up("too few points are over the mesh");
   const auto filters = [&](const FacetHeights& at) { return registration::learn_whitenings(chain, at, config); };
 
   // The minimum of the start, with the relief's spectrum as it is there; then all minima with that spectrum.
   std::vector<Whitening> whitening = filters(heights);
-  if (!registration::has_variance(whitening)) return give_up("the path lies on the mesh exactly");
+  if (!registration::has_variance(whitening)) return give_up("the path is on the mesh exactly");
   Refined best = descend_to_minimum(problem, first, whitening, config.max_iterations, watch);
   int iterations = best.iterations;
   std::vector<LocalMinimum> minima;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
     whitening = filters(best.heights);
-    if (!registration::has_variance(whitening)) return give_up("the path lies on the mesh exactly");
+    if (!registration::has_variance(whitening)) return give_up("the path is on the mesh exactly");
     best = descend_to_minimum(problem, best.state, whitening, config.max_iterations, watch);
     iterations += best.iterations;
     if (round > 0) continue;
@@ -159,8 +159,7 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
                       result);
   }
   report_rival_minimum(chain, minima, result);
-  result.verdict +=
-      fmt::format(" With the slow error of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
+  result.verdict += fmt::format(" With drift of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
   for (std::size_t i = start.undetermined.size(); i < result.undetermined.size(); ++i) {
     result.verdict += (i == start.undetermined.size() ? "; but " : ", ") + result.undetermined[i].description;
   }

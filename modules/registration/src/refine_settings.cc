@@ -20,10 +20,10 @@ RefineConfig with_few_knots(std::span<const MeasuredPath> paths, RefineConfig co
   }
   if (longest_m <= kMostKnots * config.knot_m) return config;
   config.knot_m = longest_m / kMostKnots;
-  problems.push_back({"wide_knots",
-                      fmt::format("a path is {:.3g} m long: its slow error is interpolated over {:.3g} mm", longest_m,
-                                  1e3 * config.knot_m),
-                      1});
+  problems.push_back(
+      {"wide_knots",
+       fmt::format("a path is {:.3g} m long: its drift is interpolated over {:.3g} mm", longest_m, 1e3 * config.knot_m),
+       1});
   return config;
 }
 

@@ -56,13 +56,13 @@ void write_registration_verdict(const RegistrationFindings& findings, const Poin
                             out.iterations, 1e3 * out.rms_m, used - out.outliers, used);
   out.verdict += fmt::format("; the path's own noise is about {:.4f} mm.", 1e3 * findings.noise_m);
   if (!on_mesh) {
-    out.verdict += fmt::format(" Only {:.0f} % of the points lie on the mesh.", 100.0 * inliers);
+    out.verdict += fmt::format(" Only {:.0f} % of the points are on the mesh.", 100.0 * inliers);
   }
   if (out.undetermined.empty()) {
     out.verdict +=
         fmt::format(" Every motion is determined, to {:.4f} mm RMS.", 1e3 * best.observability.determined_rms_m);
   } else {
-    out.verdict += " Not determined: the path ";
+    out.verdict += " Not determined: ";
     for (std::size_t i = 0; i < out.undetermined.size(); ++i) {
       out.verdict += (i == 0 ? "" : "; ") + out.undetermined[i].description;
     }
@@ -70,8 +70,8 @@ void write_registration_verdict(const RegistrationFindings& findings, const Poin
   }
   if (ambiguous) {
     out.verdict += fmt::format(
-        " Ambiguous: {:.2f} mm and {:.2f} degrees away it fits as well ({:.4f} mm RMS); the path cannot tell which is "
-        "correct.",
+        " Ambiguous: {:.2f} mm and {:.2f} degrees away it fits as well ({:.4f} mm RMS); the path does not determine "
+        "which is correct.",
         1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->rotation_rad,
         1e3 * out.runner_up->rms_m);
   } else if (out.runner_up) {

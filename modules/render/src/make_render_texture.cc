@@ -109,7 +109,7 @@ RenderTexture make_render_texture(const Texture& source, const RenderTextureConf
     result.own_stiffness_N_per_m = heights.stiffness_N_per_m;
   } else {
     result.height_offset_m = texture.height_offset_m.value_or(height_offset_m(texture.model));
-    check_finite(texture, "the lift", result.height_offset_m);
+    check_finite(texture, "the height offset", result.height_offset_m);
     const double highest_m = highest_height_m(texture.model) + result.height_offset_m;
     check_finite(texture, "the highest height", highest_m);
     result.highest_m = std::max(highest_m, 0.0);

@@ -118,7 +118,7 @@ void measure_stroke(const Recording& recording, const CheckRigConfig& config, co
   out.grating =
       measure_grating(result.profile, result.periodicity.pitch_m, config.grating, recording.calibration.tip_radius_m);
   if (!std::isfinite(out.grating.pitch_m)) {
-    out.why_not = "its profile is too short: eight periods without a gap are the least";
+    out.why_not = "its profile is too short: at least eight periods without a gap are needed";
     return;
   }
   // The line over the windows does not know their residuals' correlation; the other does.
@@ -170,7 +170,7 @@ RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig
   std::vector<NamedFingerprint> measured_from;
   for (const NamedRecording& stroke : strokes) measured_from.push_back({stroke.name, fingerprint_of(stroke.recording)});
   check_independent(measured_from);
-  if (strokes.empty()) throw Error("check-rig: there is no stroke");
+  if (strokes.empty()) throw Error("check-rig: the recordings hold no stroke");
   RigCheck check;
   for (const NamedRecording& stroke : strokes) {
     RigStroke& out = check.strokes.emplace_back();

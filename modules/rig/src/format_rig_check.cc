@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "asperity/base/interval_text.h"
+#include "asperity/base/nan.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
@@ -56,10 +59,10 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
 
 std::string format_row(const char* name, const RepeatedMeasurement& measurement, double scale, const char* unit,
                        double true_value) {
-  const std::string deviation = measurement.count > 1 ? fmt::format("{:.2g}", scale * measurement.deviation) : "?";
-  const std::string half_width = measurement.count > 1 ? fmt::format("{:.2g}", scale * measurement.half_width) : "?";
-  std::string out = fmt::format("{:<13} {:>9.5g} ± {:<8} {:<4} each ± {:<8}", name, scale * measurement.mean,
-                                half_width, unit, deviation);
+  const bool several = measurement.count > 1;
+  const IntervalText mean = interval_parts(scale * measurement.mean, several ? scale * measurement.half_width : kNan);
+  std::string out = fmt::format("{:<13} {:>9} ± {:<8} {:<4} each ± {:<8}", name, mean.value, several ? mean.error : "?",
+                                unit, several ? rounded_text(scale * measurement.deviation, 2) : "?");
   if (std::isfinite(true_value)) {
     out += fmt::format("true {:.5g} ({:+.2f} %)", scale * true_value, 100.0 * (measurement.mean / true_value - 1.0));
   }

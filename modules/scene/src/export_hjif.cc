@@ -50,7 +50,7 @@ HapticPerception hjif_heights(const std::string& stem, const Texture& texture, c
       sample_heights(texture.model, closed), config.haptics.spacing_um, 500000 / config.haptics.spacing_um));
   if (!line_mm) {
     problems.push_back({"not_exported",
-                        fmt::format("{}: the surface beside the line y = {} mm; HJIF has curves, no images",
+                        fmt::format("{}: the surface outside the line y = {} mm; HJIF has curves, not images",
                                     printable(stem), rounded_text(line.y_mm, 6)),
                         1});
   }

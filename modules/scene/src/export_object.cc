@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -13,6 +14,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "export_parts.h"
 #include "mesh_groups.h"
+#include "part_observer.h"
 
 namespace asperity {
 
@@ -24,17 +26,35 @@ struct Images {
   TextureMaps maps;
 };
 
-std::map<int, Images> write_images(const SceneObject& object, const ExportConfig& config, std::set<std::string>& used,
-                                   ExportResult& out) {
+// Of each texture of an object its part of the whole.
+class TextureSteps {
+ public:
+  TextureSteps(const SceneObject& object, const Observer& observer)
+      : step_(1.0 / std::max(1.0, static_cast<double>(object.textures.size()))), observer_(observer) {}
+  Observer next() {
+    const double from = step_ * begun_;
+    begun_ += 1.0;
+    return part_observer(observer_, "exporting", from, from + step_);
+  }
+
+ private:
+  double step_;
+  double begun_ = 0.0;
+  const Observer& observer_;
+};
+
+std::map<int, Images> write_images(const SceneObject& object, const ExportConfig& config, const Observer& observer,
+                                   std::set<std::string>& used, ExportResult& out) {
   std::map<int, Images> images;
+  TextureSteps steps(object, observer);
   for (const SceneTexture& texture : object.textures) {
+    const Observer of_texture = steps.next();
     if (!is_height_field(texture.texture.model)) {
       out.problems.push_back({"not_exported", printable(texture.file) + ": a force in time has no image", 1});
       continue;
     }
     const std::string stem = stem_of(texture.file, used);
-    add_images(stem, texture, config, out);
-    images[texture.index] = {stem, make_texture_maps(texture.texture, config.images)};
+    images[texture.index] = {stem, add_images(stem, texture, config, of_texture, out)};
   }
   return images;
 }
@@ -45,7 +65,7 @@ void name_what_is_lost(const std::string& stem, const Scene& scene, const SceneO
     out.problems.push_back({"not_exported", printable(stem) + ": " + what, 1});
   };
   if (!object.material.vertices.empty())
-    lost("the material map: stiffness and friction are those of the textures or the scene, not of the places");
+    lost("the material map: stiffness and friction are those of the textures or the scene, not of the positions");
   if (!object.covered.empty()) lost("textures below others");
   bool sticks = scene.static_friction_ratio.has_value();
   bool yields = false;
@@ -111,8 +131,8 @@ MeshFile with_texture_materials(const SceneObject& object, const std::map<int, I
 }
 
 void add_obj(const std::string& stem, const Scene& scene, const SceneObject& object, const ExportConfig& config,
-             std::set<std::string>& used, ExportResult& out) {
-  const std::map<int, Images> images = write_images(object, config, used, out);
+             const Observer& observer, std::set<std::string>& used, ExportResult& out) {
+  const std::map<int, Images> images = write_images(object, config, observer, used, out);
   if (!images.empty() && !object.mesh.texture_corners.empty()) {
     out.problems.push_back({"not_exported",
                             printable(stem) + ": texture maps in the MTL; the mesh has texture coordinates of its own, "
@@ -143,8 +163,8 @@ void add_obj(const std::string& stem, const Scene& scene, const SceneObject& obj
 }
 
 void add_usda(const std::string& stem, const Scene& scene, const SceneObject& object, const ExportConfig& config,
-              std::set<std::string>& used, ExportResult& out) {
-  const std::map<int, Images> images = write_images(object, config, used, out);
+              const Observer& observer, std::set<std::string>& used, ExportResult& out) {
+  const std::map<int, Images> images = write_images(object, config, observer, used, out);
   std::vector<UsdaTexture> textures;
   for (const SceneTexture& texture : object.textures) {
     UsdaTexture one;
@@ -168,12 +188,14 @@ void add_usda(const std::string& stem, const Scene& scene, const SceneObject& ob
 }
 
 void add_gltf(const std::string& stem, const Scene& scene, const SceneObject& object, const ExportConfig& config,
-              ExportResult& out) {
+              const Observer& observer, ExportResult& out) {
   GltfExport gltf;
   gltf.mesh = object.mesh;
   gltf.unit_m = object.unit_m;
   gltf.white_png = format_png(GrayImage{1, 1, {255}, 8});
+  TextureSteps steps(object, observer);
   for (const SceneTexture& texture : object.textures) {
+    const Observer of_texture = steps.next();
     GltfTexture one;
     one.index = texture.index;
     one.name = texture_title(texture);
@@ -181,7 +203,7 @@ void add_gltf(const std::string& stem, const Scene& scene, const SceneObject& ob
     one.friction = friction_of(scene, texture.texture);
     one.warning = texture.warning;
     if (is_height_field(texture.texture.model)) {
-      TextureMaps maps = make_texture_maps(texture.texture, config.images);
+      TextureMaps maps = make_texture_maps(texture.texture, config.images, of_texture);
       one.size_mm = maps.size_mm;
       one.height_low_m = maps.heights.low_m;
       one.height_range_m = maps.heights.high_m - maps.heights.low_m;
@@ -198,14 +220,15 @@ void add_gltf(const std::string& stem, const Scene& scene, const SceneObject& ob
 }  // namespace
 
 void add_mesh_object(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
-                     const ExportConfig& config, std::set<std::string>& used, ExportResult& out) {
+                     const ExportConfig& config, const Observer& observer, std::set<std::string>& used,
+                     ExportResult& out) {
   name_what_is_lost(stem, scene, object, format, out);
   if (format == ExportFormat::kObj) {
-    add_obj(stem, scene, object, config, used, out);
+    add_obj(stem, scene, object, config, observer, used, out);
   } else if (format == ExportFormat::kUsda) {
-    add_usda(stem, scene, object, config, used, out);
+    add_usda(stem, scene, object, config, observer, used, out);
   } else {
-    add_gltf(stem, scene, object, config, out);
+    add_gltf(stem, scene, object, config, observer, out);
   }
 }
 

@@ -19,8 +19,9 @@ std::optional<double> friction_of(const Scene& scene, const Texture& texture);
 // The file's name without folder and endings; the same again gets a number.
 std::string stem_of(const std::string& file, std::set<std::string>& used);
 
-// <stem>.height.png, .normal.png and .images.json, of an area .sigma.png.
-void add_images(const std::string& stem, const SceneTexture& texture, const ExportConfig& config, ExportResult& out);
+// <stem>.height.png, .normal.png and .images.json, of an area .sigma.png. Returns the maps without their images.
+TextureMaps add_images(const std::string& stem, const SceneTexture& texture, const ExportConfig& config,
+                       const Observer& observer, ExportResult& out);
 
 // The texture stroked: <stem>.wav, .ahap or .haps, and for wav <stem>.sound.json.
 void add_vibration(const std::string& stem, const SceneTexture& texture, ExportFormat format,
@@ -32,6 +33,7 @@ void add_hjif(const std::string& stem, const Scene& scene, const SceneTexture& t
 
 // An object as <stem>.obj, .glb or .usda, with its textures' images; `used` are the stems that are taken.
 void add_mesh_object(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
-                     const ExportConfig& config, std::set<std::string>& used, ExportResult& out);
+                     const ExportConfig& config, const Observer& observer, std::set<std::string>& used,
+                     ExportResult& out);
 
 }  // namespace asperity

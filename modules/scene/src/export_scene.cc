@@ -17,6 +17,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "export_parts.h"
+#include "part_observer.h"
 
 namespace asperity {
 
@@ -54,8 +55,9 @@ double height_of(const HeightMap& map, std::size_t i) { return map.low_m + map.l
 
 }  // namespace
 
-void add_images(const std::string& stem, const SceneTexture& texture, const ExportConfig& config, ExportResult& out) {
-  TextureMaps maps = make_texture_maps(texture.texture, config.images);
+TextureMaps add_images(const std::string& stem, const SceneTexture& texture, const ExportConfig& config,
+                       const Observer& observer, ExportResult& out) {
+  TextureMaps maps = make_texture_maps(texture.texture, config.images, observer);
   Json about{{"format", "asperity-images"},
              {"version", 1},
              {"height_map", stem + ".height.png"},
@@ -78,6 +80,7 @@ void add_images(const std::string& stem, const SceneTexture& texture, const Expo
   out.files.push_back({stem + ".height.png", std::move(maps.height_png)});
   out.files.push_back({stem + ".normal.png", std::move(maps.normal_png)});
   out.files.push_back({stem + ".images.json", json_text(about)});
+  return maps;
 }
 
 namespace {
@@ -100,9 +103,9 @@ std::string measured_note(const TextureModel& model, double length_m, double wid
       for (std::size_t c = 2; c + 2 < g.columns; ++c) gaps += areal->supported[r * g.columns + c] == 0 ? 1 : 0;
     if (gaps > 0) out += std::to_string(gaps) + " of its points have no height near and were filled smoothly. ";
     const bool beyond = length_m > to_x_m + g.spacing_x_m || width_m > to_y_m + g.spacing_y_m;
-    return out + (beyond ? "What lies beyond was continued (border: " +
+    return out + (beyond ? "The surface beyond was continued (border: " +
                                std::string(kBorderNames.at(static_cast<std::size_t>(g.border))) + "), not measured."
-                         : "Nothing lies beyond.");
+                         : "The file ends there.");
   }
   if (const auto* surface = std::get_if<Fourier2d>(&model)) {
     if (surface->kind == Fourier2dKind::kIsotropic)
@@ -115,7 +118,8 @@ std::string measured_note(const TextureModel& model, double length_m, double wid
          ". The file does not say which part of it was measured.";
 }
 
-void add_x3p(const std::string& stem, const SceneTexture& from, const ExportConfig& config, ExportResult& out) {
+void add_x3p(const std::string& stem, const SceneTexture& from, const ExportConfig& config, const Observer& observer,
+             ExportResult& out) {
   const Texture& texture = from.texture;
   X3pGrid grid;
   if (const auto length_mm = line_length_mm(texture.model)) {
@@ -126,7 +130,7 @@ void add_x3p(const std::string& stem, const SceneTexture& from, const ExportConf
     grid.columns = grid.height_m.size();
     grid.x_spacing_m = 1e-3 * line.spacing_mm;
   } else {
-    const TextureMaps maps = make_texture_maps(texture, config.images);
+    const TextureMaps maps = make_texture_maps(texture, config.images, observer);
     grid.columns = maps.heights.columns;
     grid.rows = maps.heights.rows;
     grid.x_spacing_m = 1e-3 * maps.heights.mm_per_px_x;
@@ -140,7 +144,7 @@ void add_x3p(const std::string& stem, const SceneTexture& from, const ExportConf
 }
 
 void add_texture(const std::string& stem, const Scene& scene, const SceneTexture& texture, ExportFormat format,
-                 const ExportConfig& config, ExportResult& out) {
+                 const ExportConfig& config, const Observer& observer, ExportResult& out) {
   if (format == ExportFormat::kWav || format == ExportFormat::kAhap || format == ExportFormat::kHaps) {
     add_vibration(stem, texture, format, config, out);
   } else if (format == ExportFormat::kHjif) {
@@ -148,9 +152,9 @@ void add_texture(const std::string& stem, const Scene& scene, const SceneTexture
   } else if (!is_height_field(texture.texture.model)) {
     out.problems.push_back({"not_exported", printable(stem) + ": a force in time has no heights", 1});
   } else if (format == ExportFormat::kPng) {
-    add_images(stem, texture, config, out);
+    add_images(stem, texture, config, observer, out);
   } else {
-    add_x3p(stem, texture, config, out);
+    add_x3p(stem, texture, config, observer, out);
   }
 }
 
@@ -168,9 +172,20 @@ bool is_mesh_format(ExportFormat format) {
 
 }  // namespace
 
-ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportConfig& config) {
+ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportConfig& config,
+                          const Observer& observer) {
   ExportResult out;
   std::set<std::string> used;
+  std::size_t count = 0;
+  for (const SceneObject& object : scene.objects) count += object.textures.size();
+  std::size_t begun = 0;
+  const auto next = [&](std::size_t textures) {
+    const double whole = std::max(1.0, static_cast<double>(count));
+    const double from = static_cast<double>(begun) / whole;
+    begun += textures;
+    observer.update("exporting", from);
+    return part_observer(observer, "exporting", from, static_cast<double>(begun) / whole);
+  };
   for (const SceneObject& object : scene.objects) {
     for (const SceneTexture& texture : object.textures) {
       if (!texture.warning.empty())
@@ -178,18 +193,19 @@ ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportC
     }
     if (!is_mesh_format(format)) {
       for (const SceneTexture& texture : object.textures)
-        add_texture(stem_of(texture.file, used), scene, texture, format, config, out);
+        add_texture(stem_of(texture.file, used), scene, texture, format, config, next(1), out);
     } else if (!object.mesh.triangles.empty()) {
       const std::string stem = stem_of(object.mesh_file, used);
+      const Observer of_object = next(object.textures.size());
       if (format == ExportFormat::kStl) {
         add_relief(stem, object, config, out);
       } else {
-        add_mesh_object(stem, scene, object, format, config, used, out);
+        add_mesh_object(stem, scene, object, format, config, of_object, used, out);
       }
     }
   }
   if (out.files.empty()) {
-    throw Error("export: there is nothing that could be written as " +
+    throw Error("export: the scene holds nothing that can be written as " +
                 std::string(kExportFormatNames[static_cast<std::size_t>(format)]));
   }
   return out;

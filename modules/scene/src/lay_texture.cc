@@ -133,6 +133,7 @@ LaidTriangles lay_triangles(SceneObject& object, std::span<const CoveredTriangle
       ++out.under;
     } else if (was.texture >= 0 && !is_claimed(triangle, was.texture)) {
       ++out.over;
+      ++out.covered[was.texture];
     }
   }
   return out;

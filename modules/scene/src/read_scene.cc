@@ -62,7 +62,7 @@ void append_object_problems(const SceneObject& object, Problems& problems) {
   for (const auto& [index, triangles] : unlisted) {
     problems.push_back({"unlisted_texture",
                         printable(object.mesh_file) + ": triangles with texture " + std::to_string(index) +
-                            ", which the scene does not list, are felt without",
+                            ", which the scene does not list, are rendered without texture",
                         triangles});
   }
 }

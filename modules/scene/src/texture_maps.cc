@@ -12,12 +12,14 @@
 #include "asperity/texture/evaluate_height_map.h"
 #include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
+#include "part_observer.h"
 
 namespace asperity {
 namespace {
 
 // The mapped part of an area, from its corner at 0 on; it does not repeat.
-HeightMap heights_of_area(const TextureModel& model, const SplineGrid& grid, const TextureMapsConfig& config) {
+HeightMap heights_of_area(const TextureModel& model, const SplineGrid& grid, const TextureMapsConfig& config,
+                          const Observer& observer) {
   const auto length_mm = [](double origin_m, double spacing_m, std::size_t count) {
     return 1e3 * (origin_m + (static_cast<double>(count) - 3.0) * spacing_m);
   };
@@ -31,17 +33,17 @@ HeightMap heights_of_area(const TextureModel& model, const SplineGrid& grid, con
   image.columns = pixels(image.length_mm);
   image.rows = pixels(image.width_mm);
   image.border = Border::kClamp;
-  return make_height_map(model, image).texture;
+  return make_height_map(model, image, observer).texture;
 }
 
-HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config) {
+HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config, const Observer& observer) {
   if (const auto* map = std::get_if<HeightMap>(&texture.model)) return *map;
   if (!is_height_field(texture.model)) {
     throw Error("images: the texture '" + printable(texture.name) + "' of model " + std::string(texture.model_name()) +
                 " has no heights");
   }
   if (const auto* areal = std::get_if<ArealTexture>(&texture.model); areal != nullptr && !areal->sigma_m.empty())
-    return heights_of_area(texture.model, areal->surface, config);
+    return heights_of_area(texture.model, areal->surface, config, observer);
   const std::optional<double> period = period_m(texture.model);
   const double length_mm = period ? 1e3 * *period : 10.0;
   MakeHeightMapConfig image;
@@ -50,7 +52,7 @@ HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config) {
       std::clamp(std::ceil(length_mm * config.pixels_per_mm), static_cast<double>(config.fewest_pixels), 8192.0));
   image.rows = config.fewest_pixels;
   image.seam_mm = std::min(config.seam_mm, 0.5 * length_mm);
-  return make_height_map(texture.model, image).texture;
+  return make_height_map(texture.model, image, observer).texture;
 }
 
 }  // namespace
@@ -97,10 +99,12 @@ std::string format_sigma_png(const ArealTexture& areal, const HeightMap& heights
   return format_height_image(image);
 }
 
-TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config) {
+TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config, const Observer& observer) {
   TextureMaps out;
-  out.heights = heights_of(texture, config);
+  out.heights = heights_of(texture, config, part_observer(observer, "height map", 0.0, 0.8));
+  observer.update("height map", 0.8);
   out.height_png = format_height_image(out.heights);
+  observer.update("normal map", 0.85);
   out.normal_png = format_normal_png(out.heights);
   out.size_mm = {out.heights.mm_per_px_x * static_cast<double>(out.heights.columns),
                  out.heights.mm_per_px_y * static_cast<double>(out.heights.rows)};

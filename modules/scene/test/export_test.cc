@@ -229,7 +229,7 @@ TEST(ExportScene, X3pSaysWhatWasMeasured) {
   auto members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);
   EXPECT_THAT(members.at("main.xml"),
               testing::HasSubstr("points 0.1 mm apart. Measured: x 0 to 3 mm, y 0 to 2 mm from the first point of this "
-                                 "file. What lies beyond was continued (border: mirror), not measured."));
+                                 "file. The surface beyond was continued (border: mirror), not measured."));
   const Fourier1d profile{10.0, {0.0, 0.0, 0.0, 1e-4}, {0.0, 0.0, 0.0, 0.0}, 0.0};
   scene.objects[0].textures[0].texture.model = fit_fourier2d(profile, profile).texture;
   members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);
@@ -259,6 +259,27 @@ TEST(ExportScene, SoundsAtTheSpeedOverThePitch) {
   }
   EXPECT_NEAR(crossings, 20, 1);
   EXPECT_NEAR(highest, 0.9 * 32767, 1.0);
+}
+
+TEST(ExportScene, ReportsHowFarItIsAndCanBeStopped) {
+  Scene scene = painted_scene();
+  scene.objects[0].textures.push_back({2, "other.texture.json", cosine()});
+  for (const ExportFormat format : {ExportFormat::kGltf, ExportFormat::kObj, ExportFormat::kUsda, ExportFormat::kPng}) {
+    std::vector<double> fractions;
+    export_scene(scene, format, {},
+                 {[&](std::string_view stage, double fraction) {
+                    EXPECT_EQ(stage, "exporting");
+                    fractions.push_back(fraction);
+                  },
+                  {}});
+    EXPECT_GT(fractions.size(), 100U);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_EQ(fractions.front(), 0.0);
+    EXPECT_GT(fractions.back(), 0.9);
+    EXPECT_LE(fractions.back(), 1.0);
+    int asked = 0;
+    EXPECT_THROW(export_scene(scene, format, {}, {{}, [&] { return ++asked > 20; }}), Cancelled);
+  }
 }
 
 TEST(ExportScene, WithNothingToWriteIsAnError) {

@@ -37,7 +37,10 @@ Scene read_source(const fs::path& path, const Observer& observer) {
   if (fs::is_directory(path)) {
     if (fs::exists(path / "scene.json")) return read_scene(path / "scene.json", observer);
     if (fs::exists(path / "texture.json")) return texture_alone(path / "texture.json");
-    throw Error(printable(path.string(), 200) + ": holds neither scene.json nor texture.json");
+    throw Error(printable(path.string(), 200) + ": holds neither scene.json nor texture.json" +
+                (fs::exists(path / "profile.csv")
+                     ? ", only profile.csv. It can be exported to x3p, sdf, sdf-binary, gsf"
+                     : "; name the folder of a result or of a scene"));
   }
   const std::string name = path.filename().string();
   if (name == "texture.json" || name.ends_with(".texture.json")) return texture_alone(path);

@@ -37,7 +37,8 @@ FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const 
                            const Observer& observer) {
   observer.update("reading", 0.0);
   if (!fs::exists(fs::path(folder) / "recording.json") && fs::exists(fs::path(folder) / "trajectory.csv")) {
-    throw Error(printable(folder, 200) + ": a result, not a recording; its trajectory.csv can be felt with --mapped");
+    throw Error(printable(folder, 200) +
+                ": is a result, not a recording; its trajectory.csv can be rendered with --mapped");
   }
   const Recording recording = read_recording(folder, {}, observer);
   FeelDrive out;
@@ -99,7 +100,9 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
                      const Observer& observer) {
   if (fs::is_directory(replay)) return repeat_recording(replay, scene, settings, observer);
   if (mapped && !scene.T_mesh_world) {
-    throw Error("--mapped: the scene has no registration (T_mesh_world), which says where the tracker's world lies");
+    throw Error(
+        "--mapped: the scene has no registration (T_mesh_world), so that the position of the tracker's world is not "
+        "known; register a scan first");
   }
   const Pose T_scene_path = mapped ? scene.objects.at(0).T_world_mesh * *scene.T_mesh_world : Pose{};
   const ReplayFile file = read_replay_csv(replay);
@@ -125,8 +128,8 @@ FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& f
     line = line_between(scene, *from_m, *to_m);
     const double steepest = steepest_rad(line);
     if (steepest > kSteepest_rad) {
-      note("steep_stroke", fmt::format("the way from --from to --to leads round an edge: the surface is up to {:.0f}° "
-                                       "from the direction in which the hand presses",
+      note("steep_stroke", fmt::format("the path from --from to --to leads around an edge: the surface is up to "
+                                       "{:.0f}° from the direction in which the hand presses",
                                        steepest * 180.0 / std::numbers::pi));
     }
   } else {
@@ -137,8 +140,8 @@ FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& f
         line.turns_away || (!textured && line.size() > 1 && line.s_m.back() < (1.0 - 1e-9) * kAcross_m);
     line = shortened(line, settings.stroke.margin_m);
     if (shorter && line.size() > 1) {
-      note("short_stroke", fmt::format("the stroke is {:.1f} mm long: there the surface {}", line.s_m.back() * 1e3,
-                                       line.turns_away ? "turns away from the hand" : "ends"));
+      note("short_stroke", fmt::format("the stroke is {:.1f} mm long, because the surface {} there",
+                                       line.s_m.back() * 1e3, line.turns_away ? "bends away from the hand" : "ends"));
     }
   }
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);

@@ -39,8 +39,8 @@ Json LiveScan::announcement() const {
 
 LiveReport LiveScan::play(const Observer& observer) {
   if (!bench_.wait_for_readers(observer)) {
-    throw Error(fmt::format("nobody has opened {} and {} within {} s (live.wait_s)", port(), printable(camera(), 200),
-                            config_.wait_s));
+    throw Error(fmt::format("no program has opened {} and {} within {} s (live.wait_s)", port(),
+                            printable(camera(), 200), config_.wait_s));
   }
   return bench_.play(observer);
 }
@@ -68,7 +68,7 @@ std::string live_line(const LiveReport& report, const std::string& recording) {
                                  printable(recording, 200), report.probe_bytes, report.frames,
                                  1e3 * report.latest_probe_s, 1e3 * report.latest_frame_s);
   if (report.probe_bytes_lost + report.frames_lost > 0)
-    line += fmt::format("nobody read {} bytes and {} images\n", report.probe_bytes_lost, report.frames_lost);
+    line += fmt::format("{} bytes and {} images were not read\n", report.probe_bytes_lost, report.frames_lost);
   if (report.frames_dropped > 0)
     line += fmt::format("{} images were dropped: the machine was too slow for them\n", report.frames_dropped);
   return line;

@@ -39,7 +39,7 @@ void refuse_stranger(const fs::path& file, const IsOurs& is_ours, const std::vec
   const auto refuse = [&](const char* why) {
     throw Error(printable(file.string(), 200) + ": exists and " + why + "; nothing was changed");
   };
-  if (!fs::is_regular_file(status)) refuse("is no file that could be replaced");
+  if (!fs::is_regular_file(status)) refuse("is not a regular file");
   for (const std::string& input : inputs) {
     if (fs::equivalent(file, input, ignored)) refuse("is read by this command");
   }

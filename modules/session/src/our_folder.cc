@@ -32,14 +32,14 @@ void write_listing(const fs::path& folder) {
   write_file(folder / kListing, out.dump_repaired(2) + "\n");
 }
 
-bool is_our_folder(const fs::path& folder) {
+FolderContent is_our_folder(const fs::path& folder) {
   try {
     const Json listing = parse_json(read_file(folder / kListing, std::uint64_t{1} << 20));
     if (listing.at("format") != "asperity-files") return false;
     std::set<std::string> ours{kListing};
     for (const Json& name : listing.at("files")) ours.insert(name.get<std::string>());
     for (const std::string& name : files_in(folder)) {
-      if (!ours.contains(name)) return false;
+      if (!ours.contains(name)) return FolderContent::with_added(name);
     }
     return true;
   } catch (const std::exception&) {

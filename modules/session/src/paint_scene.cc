@@ -1,5 +1,6 @@
 #include "asperity/session/paint_scene.h"
 
+#include "asperity/base/text.h"
 #include "asperity/json/json.h"
 #include "asperity/scene/lay_texture.h"
 #include "asperity/scene/read_scene.h"
@@ -36,6 +37,23 @@ SceneTexture choose_texture(const Scene& scene, const fs::path& file, int index,
   return out;
 }
 
+std::vector<std::string> covered_notes(const PaintResult& result, const SceneObject& object,
+                                       const SceneTexture& texture) {
+  std::vector<std::string> out;
+  for (const CoveredTexture& covered : result.covered) {
+    const SceneTexture* earlier = object.find_texture(covered.index);
+    const std::string file = earlier != nullptr ? " (" + printable(earlier->file, 200) + ")" : std::string();
+    const std::string still = covered.rendered_still == 0
+                                  ? "; no other triangle shows texture " + std::to_string(covered.index)
+                                  : "; " + std::to_string(covered.rendered_still) + " others still show it";
+    out.push_back("texture " + std::to_string(texture.index) + " covers texture " + std::to_string(covered.index) +
+                  file + " on " + std::to_string(covered.triangles) +
+                  (covered.triangles == 1 ? " triangle" : " triangles") + still +
+                  ". The scene keeps both; --under lays the new one below");
+  }
+  return out;
+}
+
 Json stroke_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {
   Json out;
   out["format"] = "asperity-paint";
@@ -48,6 +66,14 @@ Json stroke_json(const PaintResult& result, const SceneObject& object, const Sce
   out["triangles"] = warp.triangles;
   out["painted_over"] = result.painted_over;
   out["painted_under"] = result.painted_under;
+  out["covered"] = Json::array();
+  for (const CoveredTexture& covered : result.covered) {
+    const SceneTexture* earlier = object.find_texture(covered.index);
+    out["covered"].push_back({{"index", covered.index},
+                              {"file", earlier != nullptr ? Json(earlier->file) : Json(nullptr)},
+                              {"triangles", covered.triangles},
+                              {"rendered_still", covered.rendered_still}});
+  }
   out["warp"] = {
       {"stretch_min", warp.stretch_min}, {"stretch_max", warp.stretch_max},    {"stretch_rms", warp.stretch_rms},
       {"folded", warp.folded.size()},    {"stretched", warp.stretched.size()}, {"overlapping", warp.overlapping.size()},

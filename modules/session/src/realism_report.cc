@@ -107,7 +107,7 @@ std::string realism_text(const RealismScore& score) {
                         : std::string("real against rendered: not determined");
   out += std::isfinite(score.ceiling) ? fmt::format("; two real strokes have {:.3f}, 95 %: {:.3f} to {:.3f}\n",
                                                     score.ceiling, score.ceiling_low, score.ceiling_high)
-                                      : std::string("; what two real strokes have is not determined\n");
+                                      : std::string("; the agreement of two real strokes is not determined\n");
   out += channel_text("acceleration", score.acceleration, "m/s²");
   out += channel_text("force", score.force, "N");
   if (std::isfinite(score.friction.real)) {

@@ -103,14 +103,14 @@ RenderedInput read_rendered(const fs::path& path, const Observer& observer) {
     if (!fs::exists(file) && fs::exists(path / "profile.csv")) {
       if (!fs::exists(path / "texture.json"))
         throw Error(printable(path.string(), 200) +
-                    ": a result without texture.json: its stroke was too short for one");
+                    ": is a result without texture.json, because its stroke was too short");
       out.texture = read_texture(path / "texture.json", {}, observer);
       read_profile(path / "profile.csv", out);
       out.sources = sources_of(out.texture);
       return out;
     }
     if (!fs::exists(file))
-      throw Error(printable(path.string(), 200) + ": neither scene.json nor profile.csv and texture.json are in it");
+      throw Error(printable(path.string(), 200) + ": holds neither scene.json nor profile.csv with texture.json");
   }
   const std::string name = file.filename().string();
   if (name.ends_with("texture.json")) {

@@ -14,14 +14,16 @@ namespace fs = std::filesystem;
 namespace {
 
 std::set<std::string> replaceable_files(const EarlierScene& earlier) {
-  const std::string name = printable(earlier.folder.string(), 200);
+  const std::string name = printable(earlier.given.string(), 200);
   if (!earlier.files.contains(earlier.file)) {
-    throw Error(name +
-                ": was not written by asperity and cannot be replaced; write the scene into another folder (-o)");
+    throw Error(name + ": was not written by asperity (neither its files.json nor its registration.json lists " +
+                printable(earlier.file, 200) + "); nothing was changed. Write the scene into another folder with -o");
   }
   std::error_code error;
   if (fs::equivalent(earlier.folder, fs::current_path(error), error))
-    throw Error(name + ": is the current folder, which is replaced as a whole; run this from another one");
+    throw Error(name +
+                ": is the current folder, which would be replaced as a whole; nothing was changed. Run the "
+                "command from another folder");
   std::set<std::string> out = earlier.files;
   out.insert(earlier.own_files.begin(), earlier.own_files.end());
   return out;

@@ -73,7 +73,7 @@ void add_source_warnings(const fs::path& folder, Scene& scene) {
       result = parse_json(read_file(file, kLargestResult_bytes), printable(file.string(), 200));
     } catch (const Error& error) {
       each([&](SceneObject&, SceneTexture& texture) {
-        texture.warning = "whether its source is valid is not known: " + std::string(error.what());
+        texture.warning = "the validity of its source is not known: " + std::string(error.what());
       });
       return;
     }

@@ -99,7 +99,7 @@ std::vector<Eigen::Vector3d> join_points(const MeshSurface& surface, const Eigen
                                          const Eigen::Vector3d& to, std::size_t number) {
   const auto fail = [&] {
     return Error(
-        fmt::format("simulation.shape.through: no way over the surface from point {} to point {}: pick more "
+        fmt::format("simulation.shape.through: no path on the surface connects point {} with point {}; pick more "
                     "points between them",
                     number, number + 1));
   };

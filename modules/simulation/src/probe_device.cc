@@ -70,7 +70,8 @@ class OpenDevice : public ProbeDevice {
     description.force_rate_hz = config.force_rate_Hz;
     description.force_newton_per_count = truth.force.newton_per_count;
     if (!asp_probe_init(&probe_, &board_, &description, nullptr))
-      throw Error("the firmware refuses the probe's figures: a rate, range or scale is not in the protocol's range");
+      throw Error(
+          "the firmware refuses the description of the probe: a rate, range or scale is not in the protocol's range");
   }
 
   void advance(std::int64_t t_ns, std::vector<std::uint8_t>& out) override {

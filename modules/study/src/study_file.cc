@@ -148,7 +148,7 @@ Study parse_study_file(std::string_view text, const std::string& name) {
   Json value = parse_study_text(text, name);
   if (!value.is_object() || value.value("format", Json()) != Json(kStudyFormat)) {
     throw StudyError(StudyFault::kForeignFile,
-                     name + ": is no study: its format is not '" + std::string(kStudyFormat) + "'");
+                     name + ": is not a study: its format is not '" + std::string(kStudyFormat) + "'");
   }
   if (value.value("version", Json()) != Json(kStudyVersion)) {
     throw StudyError(StudyFault::kUnknownVersion, name + ": has a version that this program does not know; it knows " +

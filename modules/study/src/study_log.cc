@@ -75,7 +75,7 @@ std::vector<std::uint32_t> crcs_of(const Json& value, const Study& study, const 
 // The session before its first row, and the check sums of its textures.
 StudyLog log_of(std::string_view text, const std::string& name) {
   if (text.empty()) throw Error(name + ": is empty");
-  if (!text.starts_with(kMagic)) throw Error(name + ":1: is no log of a study of version 1");
+  if (!text.starts_with(kMagic)) throw Error(name + ":1: is not a log of a study of version 1");
   const Json head = parse_study_text(text.substr(kMagic.size(), text.find('\n') - kMagic.size()), name + ":1");
   const bool has_crcs = head.is_object() && head.contains(kCrcs);
   if (!head.is_object() || head.size() != (has_crcs ? 4 : 3) || !head.contains("study") ||
@@ -95,7 +95,7 @@ StudyLog log_of(std::string_view text, const std::string& name) {
 
 double time_of(const CsvReader& rows, std::size_t column) {
   const double value = rows.number(column);
-  if (!(value >= 0.0 && value < 1e9)) rows.fail(column, "is no time in seconds");
+  if (!(value >= 0.0 && value < 1e9)) rows.fail(column, "is not a time in seconds");
   return value;
 }
 
@@ -107,7 +107,7 @@ void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
     log.since_begin_s = time_of(rows, since);
     if (rows.cell(rows.require("event")) == "taken_back") {
       if (!session.can_take_back() || rows.integer(trial) != session.answers().back().trial.number) {
-        rows.fail(trial, "there is no such answer to be taken back");
+        rows.fail(trial, "takes back an answer that was not given");
       }
       session.take_back();
       continue;
@@ -127,7 +127,7 @@ void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
     int value = 0;
     if (session.study().method == StudyMethod::kRating) {
       const std::int64_t rating = rows.integer(answer);
-      if (rating < kLowestRating || rating > kHighestRating) rows.fail(answer, "is no rating");
+      if (rating < kLowestRating || rating > kHighestRating) rows.fail(answer, "is not a rating");
       value = static_cast<int>(rating);
     } else if (rows.cell(answer) == "right") {
       value = 1;

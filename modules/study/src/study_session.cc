@@ -53,7 +53,7 @@ const StudyAnswer& StudySession::give(int value, double response_s, double since
   if (!trial_) throw Error("all trials are answered");
   const bool rating = study_.method == StudyMethod::kRating;
   if (value < (rating ? kLowestRating : 0) || value > (rating ? kHighestRating : 1)) {
-    throw Error(std::to_string(value) + " is no answer to this trial");
+    throw Error(std::to_string(value) + " is not an answer to this trial");
   }
   StudyAnswer answer;
   answer.trial = *trial_;

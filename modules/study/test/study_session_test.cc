@@ -268,7 +268,7 @@ TEST(StudyLog, RefusesWhatItIsNot) {
   EXPECT_THAT(with("\"00000abc\"", "2748"), HasSubstr("log:1: textures_crc32"));
   EXPECT_THAT(with("{\"t0.texture.json\":\"", "{\"t9.texture.json\":\""), HasSubstr("log:1: textures_crc32"));
   EXPECT_THAT(fault(text + text.substr(text.rfind("answer"))), HasSubstr("all trials are answered"));
-  EXPECT_THAT(with(",1.5,", ",-1,"), HasSubstr("no time"));
+  EXPECT_THAT(with(",1.5,", ",-1,"), HasSubstr("not a time"));
 }
 
 TEST(StudyLogFile, IsNewAndGrows) {
@@ -301,7 +301,7 @@ TEST(StudyFile, SaysWhatIsWrong) {
   const auto fault = [&](const std::string& text) { return fault_of([&] { parse_study_file(text, "a.study.json"); }); };
   const auto with = [&](const std::string& rest) { return fault(R"({"format":"asperity.study","version":1,)" + rest); };
   EXPECT_THAT(fault("{"), HasSubstr("a.study.json:1:1: not JSON"));
-  EXPECT_THAT(fault("[]"), HasSubstr("is no study"));
+  EXPECT_THAT(fault("[]"), HasSubstr("is not a study"));
   EXPECT_THAT(fault(R"({"format":"asperity.study","version":2})"), HasSubstr("version"));
   EXPECT_THAT(with(R"("speed":1})"), HasSubstr("speed"));
   EXPECT_THAT(with(R"("seed":1,"seed":2})"), HasSubstr("twice"));

@@ -77,7 +77,7 @@ void parse_surface(const std::string& text, const std::string& name, ArealTextur
   }
   if (g.coefficient_m.size() != count || csv.truncated()) {
     throw Error(name + ":" + std::to_string(csv.line()) + ": " + std::to_string(g.coefficient_m.size()) +
-                " whole rows where the block says " + std::to_string(count));
+                " whole rows where the block states " + std::to_string(count));
   }
 }
 

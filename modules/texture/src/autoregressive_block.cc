@@ -31,11 +31,11 @@ std::vector<double> lsf_list(const JsonItem& in, std::size_t models) {
 
 void read_triangles(const JsonItem& in, AutoregressiveTexture& t) {
   auto all = in.numbers(kMostCoefficients, {-1e6, 1e6});
-  if (all.size() % 3 != 0) in.fail(std::to_string(all.size()) + " numbers are no triangles");
+  if (all.size() % 3 != 0) in.fail(std::to_string(all.size()) + " numbers are not triangles, which have three each");
   for (std::size_t i = 0; i < all.size(); i += 3) {
     std::array<int, 3> triangle;
     for (std::size_t j = 0; j < 3; ++j) {
-      if (all[i + j] != std::floor(all[i + j])) in.element(i + j).fail(number_text(all[i + j]) + " is no index");
+      if (all[i + j] != std::floor(all[i + j])) in.element(i + j).fail(number_text(all[i + j]) + " is not an index");
       triangle[j] = static_cast<int>(all[i + j]);
     }
     t.triangles.push_back(triangle);

@@ -141,7 +141,7 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
   const std::vector<ArealSample> present = checked(samples, fit.problems);
   const Extent extent = extent_of(present);
   if (!(extent.high_x > extent.low_x) || !(extent.high_y > extent.low_y))
-    throw Error("texture: the heights lie on one line; a surface needs an area");
+    throw Error("texture: the heights are on one line; a surface needs an area");
   double mean_m = 0.0;
   for (const auto& s : present) mean_m += s.height_m / static_cast<double>(present.size());
 

@@ -85,7 +85,7 @@ AutoregressiveFit fit_once(const SeriesRecording& recording, const FitAutoregres
     if (g.samples < 20 * static_cast<std::size_t>(config.max_order)) {
       fit.problems.push_back({"few_samples",
                               "the model at " + rounded_text(1e3 * g.speed_mps) + " mm/s and " +
-                                  rounded_text(g.force_N) + " N rests on " + std::to_string(g.samples) + " samples",
+                                  rounded_text(g.force_N) + " N is based on " + std::to_string(g.samples) + " samples",
                               1});
     }
   }
@@ -158,7 +158,7 @@ AutoregressiveFit fit_autoregressive(const SeriesRecording& recording, const Fit
              kept = every_other_block(recording, config.block_s, 1);
   const SeriesRecording first = fitted.recording(), second = kept.recording();
   if (stroking_windows(first, config).size() < 2 || stroking_windows(second, config).size() < 2) {
-    fit.problems.push_back({"no_held_out", "one half of the recording does not stroke: no error was measured", 1});
+    fit.problems.push_back({"no_held_out", "one half of the recording has no stroke: the error was not measured", 1});
   } else {
     fit.held_out = measure_series_error(fit_once(first, config).texture, second, config);
   }

@@ -220,7 +220,7 @@ FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spaci
   samples.ridge = config.ridge;
   if (samples.coefficients < static_cast<int>(std::min(wanted, 1e9))) {
     result.problems.push_back({"coarse_texture",
-                               "the path is held to " +
+                               "the path is limited to " +
                                    rounded_text(static_cast<double>(samples.coefficients) / (length_m * 1e3)) +
                                    " cycles/mm instead of " + rounded_text(config.coefficients_per_mm),
                                1});

@@ -138,7 +138,7 @@ void fit_isotropic(const Fourier1d& x, const FitFourier2dConfig& config, Fourier
   if (fit.spectrum_error > 0.2) {
     fit.problems.push_back({"not_isotropic",
                             "the profile's spectrum is not that of an isotropic surface's sections: " +
-                                number_text(std::round(100.0 * fit.spectrum_error)) + " % of its power lies elsewhere",
+                                number_text(std::round(100.0 * fit.spectrum_error)) + " % of its power is elsewhere",
                             1});
   }
 }

@@ -23,7 +23,7 @@ double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); 
 // Moments about the mean, and the distribution function's distance.
 void measure_distribution(std::vector<double> z, StochasticFit& fit) {
   std::sort(z.begin(), z.end());
-  if (z.front() == z.back()) throw Error("texture: all heights are equal: there is no texture");
+  if (z.front() == z.back()) throw Error("texture: all heights are equal, so that a texture cannot be fitted");
   const double n = static_cast<double>(z.size());
   double mean = 0.0;
   for (const double v : z) mean += v / n;
@@ -119,10 +119,11 @@ StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
   for (double& z : synthesised) z = next_height_m(plain, state, spacing_m, 1.0, 1.0);
   fit.misplaced_power = misplaced(source.density, welch(synthesised, 1.0 / spacing_m, segment).density);
   if (fit.misplaced_power > 0.5) {
-    fit.problems.push_back({"not_stochastic",
-                            number_text(std::round(100.0 * fit.misplaced_power)) +
-                                " % of the profile's power lies where a stochastic texture has none: a pattern",
-                            1});
+    fit.problems.push_back(
+        {"not_stochastic",
+         number_text(std::round(100.0 * fit.misplaced_power)) +
+             " % of the profile's power is where a stochastic texture has none: the profile has a pattern",
+         1});
   }
   return fit;
 }

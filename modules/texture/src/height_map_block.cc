@@ -43,7 +43,7 @@ void TextureModelTraits<HeightMap>::read_block(const BlockInput& input, HeightMa
   if (static_cast<std::size_t>(image.width) != map.columns || static_cast<std::size_t>(image.height) != map.rows ||
       image.bits != map.bits) {
     file.fail("the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels of " +
-              std::to_string(image.bits) + " bits, the block says " + std::to_string(map.columns) + " x " +
+              std::to_string(image.bits) + " bits, the block states " + std::to_string(map.columns) + " x " +
               std::to_string(map.rows) + " of " + std::to_string(map.bits));
   }
   map.level = std::move(image.pixels);

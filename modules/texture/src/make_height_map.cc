@@ -65,7 +65,7 @@ constexpr std::size_t kMostPixels = std::size_t{kLargestImageSide_px} * kLargest
 
 }  // namespace
 
-HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfig& config) {
+HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfig& config, const Observer& observer) {
   if (!is_height_field(model))
     throw Error("texture: the model " + std::string(kTextureModelNames[model.index()]) + " has no heights");
   if (config.bits != 8 && config.bits != 16)
@@ -90,6 +90,7 @@ HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfi
 
   std::vector<double> height_m(columns * rows);
   for (std::size_t r = 0; r < rows; ++r) {
+    observer.update("height map", 0.5 * static_cast<double>(r) / static_cast<double>(rows));
     for (std::size_t c = 0; c < columns; ++c)
       height_m[r * columns + c] = tile.height_m(pixel_x_m * static_cast<double>(c), pixel_y_m * static_cast<double>(r));
   }
@@ -116,6 +117,7 @@ HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfi
   double error = 0.0;
   std::size_t compared = 0;
   for (std::size_t r = 0; r < rows; ++r) {
+    observer.update("height map", 0.5 + 0.5 * static_cast<double>(r) / static_cast<double>(rows));
     for (std::size_t c = 0; c < columns; ++c) {
       square += std::pow(height_m[r * columns + c] - mean_m, 2);
       // Half a pixel on, where interpolation is at its worst.

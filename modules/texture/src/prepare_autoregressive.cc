@@ -32,8 +32,12 @@ void check_lsf(const std::string& name, const std::string& what, const std::vect
   for (std::size_t i = 0; i <= lsf_rad.size(); ++i) {
     const double next = i < lsf_rad.size() ? lsf_rad[i] : std::numbers::pi;
     if (!(next - last >= kMinGap_rad) || !std::isfinite(next)) {
-      if (i == lsf_rad.size()) refuse(name, "the last line spectral frequency of " + what + ", below π wanted,", last);
-      refuse(name, "line spectral frequency " + std::to_string(i + 1) + " of " + what + ", rising wanted,", next);
+      if (i == lsf_rad.size())
+        refuse(name, "the last line spectral frequency of " + what + ", which must be below π,", last);
+      refuse(
+          name,
+          "line spectral frequency " + std::to_string(i + 1) + " of " + what + ", which must be above the one before,",
+          next);
     }
     last = next;
   }
@@ -102,7 +106,7 @@ void prepare_autoregressive(AutoregressiveTexture& texture, const std::string& n
   check_number(name, "the rate", texture.rate_Hz, 1.0, 1e6);
   check_number(name, "the mass", texture.mass_kg, 0.0, 1e3);
   check_number(name, "the tangential ratio", texture.tangential_ratio, -1e3, 1e3);
-  check_number(name, "the lift", texture.offset_sigmas, 0.0, 10.0);
+  check_number(name, "the height offset", texture.offset_sigmas, 0.0, 10.0);
   check_number(name, "the speed of fading", texture.fade_speed_mps, 0.0, 1e3);
   check_number(name, "the force of fading", texture.fade_force_N, 0.0, 1e6);
   check_number(name, "the largest speed", texture.max_speed_mps, 0.0, 1e3);

@@ -70,8 +70,8 @@ DeepGrayImage read_image(std::string_view data, const std::string& name, Problem
   }
   if (!note.empty() && problems != nullptr) {
     problems->push_back({"converted_image",
-                         printable(name, 200) + ": is no plain image of heights but has " + note +
-                             "; its brightness is taken as height, in " + std::to_string(out.bits) + " bits",
+                         printable(name, 200) + ": is not a plain image of heights; it has " + note +
+                             "; its brightness counts as height, in " + std::to_string(out.bits) + " bits",
                          1});
   }
   return out;

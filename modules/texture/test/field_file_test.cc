@@ -122,7 +122,7 @@ TEST(FieldFile, NamesLineAndKeyOfWhatIsWrong) {
   expect_refused(isotropic, "\"seed\": 77", "\"seed\": 7.5", "'fourier2d.seed'", "must be a whole number");
   expect_refused(isotropic, "\"seed\": 77", "\"seed\": 18446744073709551615", "'fourier2d.seed'", "is outside");
   expect_refused(isotropic, "\"power_m2\": [", "\"power_m2\": [-1, ", "'fourier2d.power_m2[0]'", "is negative");
-  expect_refused(map(16), "\"columns\": 20", "\"columns\": 21", "'heightmap.file'", "the block says 21 x 12");
+  expect_refused(map(16), "\"columns\": 20", "\"columns\": 21", "'heightmap.file'", "the block states 21 x 12");
   expect_refused(map(16), "\"columns\": 20", "\"columns\": 1000000000000", "'heightmap.columns'", "is outside");
   expect_refused(map(16), "\"bits\": 16", "\"bits\": 12", "'heightmap.bits'", "neither 8 nor 16");
   expect_refused(map(16), "\"border\": \"periodic\"", "\"border\": \"torn\"", "'heightmap.border'", "'torn'");
@@ -156,7 +156,7 @@ TEST(FieldFile, ReadsASurfaceStrictly) {
   };
   const std::string& content = good.payloads[0].content;
   const std::string last = content.substr(content.rfind('\n', content.size() - 2) + 1);
-  EXPECT_THAT(with(last, ""), ThrowsMessage<Error>(HasSubstr("whole rows where the block says")));
+  EXPECT_THAT(with(last, ""), ThrowsMessage<Error>(HasSubstr("whole rows where the block states")));
   EXPECT_THAT(with(last, last + last), ThrowsMessage<Error>(HasSubstr("more rows than the block's")));
   EXPECT_THAT(with("coefficient_m", "height_m"), ThrowsMessage<Error>(HasSubstr("'coefficient_m' is missing")));
   EXPECT_THAT(with(last, "1,2,3,4\n"), ThrowsMessage<Error>(HasSubstr("is not this grid point's")));

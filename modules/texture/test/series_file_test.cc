@@ -117,10 +117,10 @@ TEST(SeriesFile, NamesFileLineAndKeyOfWhatIsWrong) {
   expect_error(t, "\"gain\": [", "\"gain\": [1, ", "'autoregressive.gain'", "8 numbers where speed_mps has 7");
   expect_error(t, "\"ar_lsf_rad\": [", "\"ar_lsf_rad\": [0.1, ", "'autoregressive.ar_lsf_rad'",
                "36 numbers for 7 models");
-  expect_error(t, "\"triangles\": [", "\"triangles\": [1, ", "'autoregressive.triangles'", "are no triangles");
+  expect_error(t, "\"triangles\": [", "\"triangles\": [1, ", "'autoregressive.triangles'", "are not triangles");
   expect_error(t, "\"triangles\": [", "\"triangles\": [0, 1, 7, ", "'autoregressive'", "a triangle of model 7");
   expect_error(t, "\"triangles\": [", "\"triangles\": [0, 1, 1.5, ", "'autoregressive.triangles[2]'",
-               "1.5 is no index");
+               "1.5 is not an index");
   expect_error(t, "\"rate_Hz\": 2000", "\"rate_Hz\": 0", "'autoregressive.rate_Hz'", "0 is outside");
 }
 

@@ -53,7 +53,7 @@ int least_distance(const ArucoDictionary& dictionary, const std::string& name) {
   std::size_t least = static_cast<std::size_t>(dictionary.bits * dictionary.bits);
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 1; k < 4; ++k) least = std::min(least, (all[i][0] ^ all[i][k]).count());
-    if (least == 0) throw Error(name + ": marker_" + std::to_string(i) + " looks the same after a turn");
+    if (least == 0) throw Error(name + ": marker_" + std::to_string(i) + " looks the same after a rotation");
     for (std::size_t j = 0; j < i; ++j) {
       for (std::size_t k = 0; k < 4; ++k) least = std::min(least, (all[i][0] ^ all[j][k]).count());
       if (least == 0) {

@@ -57,7 +57,7 @@ BodyLeastSquares::BodyLeastSquares(const CameraCalibration& camera, const std::v
     one.covariance = Matrix8::Identity() * (config.corner_sigma_px * config.corner_sigma_px);
     if (tag.has_covariance) one.covariance = tag.covariance_px2;
     if (!one.corners_px.allFinite() || Eigen::LLT<Matrix8>(one.covariance).info() != Eigen::Success) {
-      throw Error("solve_body_pose: a tag's corners or their covariance are no numbers");
+      throw Error("solve_body_pose: a tag's corners or their covariance are not finite");
     }
     observations_.push_back(one);
   }

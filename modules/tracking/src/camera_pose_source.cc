@@ -23,7 +23,7 @@ class CameraPoses : public PoseSource {
         further_(std::move(further)),
         config_(config),
         on_frame_(std::move(on_frame)) {
-    if (!camera_) throw Error("there is no camera to track in");
+    if (!camera_) throw Error("tracking needs a camera, and none was given");
   }
 
   std::optional<TrackedPose> read(std::chrono::milliseconds timeout) override {

@@ -51,7 +51,7 @@ class PoseStream : public PoseSource {
  public:
   PoseStream(std::unique_ptr<ByteSource> bytes, PoseTimes times, const std::vector<std::string>& bodies)
       : bytes_(std::move(bytes)), times_(times), lines_(bodies) {
-    if (!bytes_) throw Error("there is no stream of poses");
+    if (!bytes_) throw Error("tracking needs a stream of poses, and none was given");
   }
 
   std::optional<TrackedPose> read(std::chrono::milliseconds timeout) override {
@@ -84,7 +84,7 @@ class PoseStream : public PoseSource {
   std::string name() const override { return bytes_->name(); }
   std::vector<std::string> warnings() const override {
     std::vector<std::string> out;
-    if (lines_.bad_lines() > 0) out.push_back(std::to_string(lines_.bad_lines()) + " lines were no poses");
+    if (lines_.bad_lines() > 0) out.push_back(std::to_string(lines_.bad_lines()) + " lines were not poses");
     if (ahead_ > 0) out.push_back(std::to_string(ahead_) + " poses had times ahead of this host's clock");
     return out;
   }
@@ -102,7 +102,7 @@ class PoseStream : public PoseSource {
 };
 
 [[noreturn]] void refuse(std::string_view text) {
-  throw Error("'" + printable(text) + "' is no source of poses: udp:[ADDRESS:]PORT, file:PATH or pipe:PATH");
+  throw Error("'" + printable(text) + "' is not a source of poses; give udp:[ADDRESS:]PORT, file:PATH or pipe:PATH");
 }
 
 }  // namespace

@@ -96,9 +96,9 @@ std::string say_found(const TagFrameFinding& finding) {
                        off);
   }
   return fmt::format(
-      "the markers' T_marker_tag do not fit the images in the tag frame declared; {} frames fit alike and the images "
-      "cannot tell them apart, of which the most usual is {}: {}. The other{}: {}. If it is not the one meant, declare "
-      "\"tag_frame\": \"opencv\" or \"opencv_upright\" in the markers' file, or turn its T_marker_tag",
+      "the markers' T_marker_tag do not fit the images in the tag frame declared; {} frames fit equally well and the "
+      "images do not distinguish them; the most usual is {}: {}. The other{}: {}. If another one is meant, declare "
+      "\"tag_frame\": \"opencv\" or \"opencv_upright\" in the markers' file, or rotate its T_marker_tag",
       finding.as_good.size() + 1, finding.description, off, finding.as_good.size() == 1 ? "" : "s",
       fmt::join(finding.as_good, "; "));
 }

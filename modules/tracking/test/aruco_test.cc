@@ -56,7 +56,7 @@ TEST(ArucoDictionary, SaysWhatIsWrong) {
   refuses(small_dictionary("- a list\n"), "is not KEY: VALUE");
   refuses("nmarkers: 1\nmarkersize: 3\nmarker_0: 11010000\n", "d.yml:3: marker_0: '11010000' is not 9 times 0 or 1");
   refuses("nmarkers: 1\nmarkersize: 3\nmarker_0: 110100002\n", "is not 9 times 0 or 1");
-  refuses("nmarkers: 1\nmarkersize: 3\nmarker_0: 111101111\n", "marker_0 looks the same after a turn");
+  refuses("nmarkers: 1\nmarkersize: 3\nmarker_0: 111101111\n", "marker_0 looks the same after a rotation");
   refuses("nmarkers: 2\nmarkersize: 2\nmarker_0: 1000\nmarker_1: 0001\n", "marker_0 and marker_1 look the same");
 }
 

@@ -333,10 +333,10 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.force_N = fill_between(out.t_ns, force);
   out.force3_marker_N = force_vectors(recording, spike, out.t_ns);
   if (out.spikes > 0)
-    out.problems.push_back({"spike", "samples that stand off from both their neighbours were replaced", out.spikes});
+    out.problems.push_back({"spike", "samples that are far from both their neighbours were replaced", out.spikes});
   if (out.saturated > 0)
     out.problems.push_back(
-        {"saturation", "accelerometer samples at the end of their range lost their weight", out.saturated});
+        {"saturation", "accelerometer samples at the end of their range were down-weighted", out.saturated});
   return out;
 }
 

@@ -85,7 +85,7 @@ TrajectoryResult estimate_trajectory_raw(const Recording& recording, const RawTr
   TrajectoryResult result;
   result.motion = sample_at_probe(recording.probe, outliers, calibration, recording.info.gravity_world_mps2, poses);
   TipMotion& motion = result.motion;
-  if (motion.size() == 0) throw Error("tracker.csv: no pose lies within the probe's time span");
+  if (motion.size() == 0) throw Error("tracker.csv: no pose is within the probe's time span");
 
   const Vector3d accel2 = acceleration_variance(poses);
   // The probe's latency has no part in it: the times of poses are all that counts.

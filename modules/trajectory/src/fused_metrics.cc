@@ -46,7 +46,7 @@ void append_outliers(const Problem& problem, TrajectoryResult& result) {
     outliers += problem.position_weight[i] < 0.5 || problem.rotation_weight[i] < 0.5;
   }
   if (outliers > 0) {
-    result.problems.push_back({"pose_outlier", "tracker poses far from the rest lost their weight", outliers});
+    result.problems.push_back({"pose_outlier", "tracker poses far from the others were down-weighted", outliers});
   }
   result.metrics["poses_used"] = static_cast<double>(poses - outliers);
   result.metrics["poses_outlying"] = static_cast<double>(outliers);

@@ -74,7 +74,7 @@ std::string find_usb_serial(const UsbSerialId& id, const fs::path& sysfs) {
                                        id.serial_number.empty() ? "" : ":" + printable(id.serial_number));
   if (wanted.empty()) {
     throw Error(name + ": no such serial port; is the probe plugged in? " +
-                (all.empty() ? "There are no USB serial ports." : "There are " + listed(all) + "."));
+                (all.empty() ? "No USB serial port was found." : "There are " + listed(all) + "."));
   }
   if (wanted.size() > 1) {
     throw Error(name + ": several ports have it: " + listed(wanted) + "; add the serial number or name the port");

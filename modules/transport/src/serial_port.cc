@@ -65,7 +65,7 @@ class HeldPort {
   }
 
   [[noreturn]] void refuse(int reason) const {
-    if (reason == ENOENT) fail("there is no such port; is " + config_.device + " plugged in?");
+    if (reason == ENOENT) fail("the port does not exist; is " + config_.device + " plugged in?");
     if (reason == EACCES || reason == EPERM) {
       fail(
           "not permitted; add yourself to the group that owns it (Debian: sudo adduser $USER dialout) and log in "
@@ -108,7 +108,7 @@ struct SerialPort::Impl {
       port.set_option(Base::baud_rate(static_cast<unsigned>(config.baud)));
     } catch (const boost::system::system_error&) {
       throw Error(
-          fmt::format("{}: {} is no baud rate of this port; 115200 and 921600 are usual", config.name, config.baud));
+          fmt::format("{}: {} is not a baud rate of this port; 115200 and 921600 are usual", config.name, config.baud));
     }
     ::tcflush(file(), TCIOFLUSH);
   }

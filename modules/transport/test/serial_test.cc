@@ -142,7 +142,7 @@ TEST(Serial, WhatIsNoPortIsRefused) {
               ThrowsMessage<Error>(HasSubstr("is not a serial port")));
   EXPECT_THAT([&] { open_serial((dir / "absent").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("plugged in")));
   const Pty pty;
-  EXPECT_THAT([&] { open_serial(pty.path(), 123456); }, ThrowsMessage<Error>(HasSubstr("123456 is no baud rate")));
+  EXPECT_THAT([&] { open_serial(pty.path(), 123456); }, ThrowsMessage<Error>(HasSubstr("123456 is not a baud rate")));
 }
 
 // A folder laid out as Linux lays out /sys, with three USB serial ports, one terminal that is none, and links as there.
@@ -198,7 +198,7 @@ TEST(UsbSerial, NoneOrSeveralAreNamed) {
       [&] {
         find_usb_serial({0x0403, 0x6001, "7"}, empty.path());
       },
-      ThrowsMessage<Error>(AllOf(HasSubstr("usb:0403:6001:7"), HasSubstr("no USB serial ports"))));
+      ThrowsMessage<Error>(AllOf(HasSubstr("usb:0403:6001:7"), HasSubstr("No USB serial port was found"))));
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ std::string times(std::uint64_t count) { return count == 1 ? "once" : fmt::forma
 
 void judge_probe(const RecordingEvidence& e, const JudgeRecordingConfig& config, Verdicts& out) {
   if (e.samples == 0) {
-    out.push_back(make_verdict("no_samples", with_message("not one sample came from the probe", e.probe_message)));
+    out.push_back(make_verdict("no_samples", with_message("the probe sent no samples", e.probe_message)));
   } else if (e.awaits_contact && e.touches == 0) {
-    out.push_back(make_verdict("never_touched", "the probe never touched"));
+    out.push_back(make_verdict("never_touched", "the probe never touched a surface"));
   } else if (e.rows_stored == 0) {
     out.push_back(make_verdict("nothing_stored", "nothing was stored"));
   }
@@ -51,16 +51,16 @@ void judge_probe(const RecordingEvidence& e, const JudgeRecordingConfig& config,
 
 void judge_tracker(const RecordingEvidence& e, const JudgeRecordingConfig& config, Verdicts& out) {
   if (!e.has_tracker) {
-    out.push_back(make_verdict("no_tracker", "there was no tracker: accelerometer and force alone"));
+    out.push_back(make_verdict("no_tracker", "the recording has no tracker: accelerometer and force alone"));
     return;
   }
   if (e.poses == 0) {
     out.push_back(make_verdict(
-        "no_poses", with_message(e.frames == 0 ? "not one image or pose came" : "no pose was found in any image",
+        "no_poses", with_message(e.frames == 0 ? "neither images nor poses arrived" : "no pose was found in any image",
                                  e.tracker_message)));
     return;
   }
-  if (e.poses_stored == 0) out.push_back(make_verdict("no_poses", "no pose is in what was stored"));
+  if (e.poses_stored == 0) out.push_back(make_verdict("no_poses", "the stored recording has no pose"));
   const std::uint64_t tried = std::max<std::uint64_t>(e.frames - e.frames_skipped, 1);
   const double seen = static_cast<double>(e.poses) / static_cast<double>(tried);
   if (seen < config.smallest_seen_share) {
@@ -70,16 +70,15 @@ void judge_tracker(const RecordingEvidence& e, const JudgeRecordingConfig& confi
   if (e.poses_overflowed > 0)
     out.push_back(make_verdict("disk_too_slow", fmt::format("{} poses did not reach the disk", e.poses_overflowed)));
   if (e.frames_skipped > 0) {
-    out.push_back(
-        make_verdict("images_skipped",
-                     fmt::format("{} images were passed over: tracking is slower than the camera", e.frames_skipped)));
+    out.push_back(make_verdict(
+        "images_skipped", fmt::format("{} images were skipped: tracking is slower than the camera", e.frames_skipped)));
   }
   if (!e.frames_failure.empty()) {
     out.push_back(
-        make_verdict("frames_not_kept", "images were not kept: " + printable(e.frames_failure, kLongestMessage)));
+        make_verdict("frames_not_kept", "images were not stored: " + printable(e.frames_failure, kLongestMessage)));
   } else if (e.frames_not_kept > 0) {
-    out.push_back(make_verdict("frames_not_kept",
-                               fmt::format("{} images were not kept: the disk or PNG is too slow", e.frames_not_kept)));
+    out.push_back(make_verdict(
+        "frames_not_kept", fmt::format("{} images were not stored: the disk or PNG is too slow", e.frames_not_kept)));
   }
 }
 
@@ -99,13 +98,13 @@ Verdicts judge_recording(const RecordingEvidence& evidence, const JudgeRecording
   }
   if (evidence.gravity_implausible) {
     out.push_back(make_verdict("gravity_implausible",
-                               "gravity at rest is not near 9.8 m/s²: the accelerometer's calibration is of another "
-                               "probe"));
+                               "gravity is not near 9.8 m/s² while the probe is stationary: the accelerometer's "
+                               "calibration belongs to another probe"));
   } else if (!evidence.gravity_measured && evidence.calibrated && evidence.poses > 0) {
-    out.push_back(make_verdict("gravity_assumed", "the probe was never at rest: gravity is assumed, not measured"));
+    out.push_back(make_verdict("gravity_assumed", "the probe was never stationary: gravity is assumed, not measured"));
   }
   if (!evidence.calibrated)
-    out.push_back(make_verdict("no_calibration", "there is no calibration: counts and poses only"));
+    out.push_back(make_verdict("no_calibration", "the recording has no calibration: counts and poses only"));
   sort_verdicts(out);
   return out;
 }

@@ -118,7 +118,7 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
   }
   // What is not known is neither small nor right.
   if (!std::isfinite(evidence.sigma_m) || !std::isfinite(evidence.sigma_rad)) {
-    out.push_back(make_verdict("pose_uncertain", "how well the paths determine the pose is not known"));
+    out.push_back(make_verdict("pose_uncertain", "the uncertainty of the pose is not known"));
   } else if (evidence.sigma_m > kKnown_m || evidence.sigma_rad > kKnown_rad) {
     out.push_back(make_verdict(
         "pose_uncertain",
@@ -126,13 +126,13 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                     1e3 * evidence.sigma_m, kDegrees * evidence.sigma_rad)));
   }
   if (!std::isfinite(evidence.slow_ratio) || !std::isfinite(evidence.outlying)) {
-    out.push_back(make_verdict("shape_unproven", "how the paths differ from the shape of the mesh is not known"));
+    out.push_back(
+        make_verdict("shape_unproven", "the difference between the paths and the shape of the mesh is not known"));
   } else if (evidence.slow_ratio > kSlowRatio || evidence.outlying > kOutlying) {
     out.push_back(
-        make_verdict("other_shape",
-                     fmt::format("to lie there the paths need a slow error {:.2g} times as large as stated, and {:.0f} "
-                                 "% of them are no such error",
-                                 evidence.slow_ratio, 100.0 * evidence.outlying)));
+        make_verdict("other_shape", fmt::format("in this pose the paths need a drift {:.2g} times as large as stated, "
+                                                "and {:.0f} % of their points are not explained by drift",
+                                                evidence.slow_ratio, 100.0 * evidence.outlying)));
   }
   const bool as_stated = evidence.slow_ratio <= kSlowAsStated;
   if (evidence.mirror_log_odds > std::log(kMirrorOdds)) {
@@ -144,11 +144,10 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
   // With no other pose to compare with, only the size of the error can speak for the mesh.
   const double least_ratio = evidence.slow_ratio * std::exp(-kRatioSigmas * evidence.slow_ratio_sigma);
   if (std::isnan(evidence.chance) && least_ratio > kSlowAsStated) {
-    out.push_back(make_verdict(
-        "shape_unproven",
-        fmt::format("the mesh has no other poses to compare this one with, and the paths need a slow error {:.2g} "
-                    "times as large as stated, {:.2g} at least",
-                    evidence.slow_ratio, least_ratio)));
+    out.push_back(make_verdict("shape_unproven",
+                               fmt::format("the mesh has no other poses to compare this one with, and the paths need a "
+                                           "drift {:.2g} times as large as stated, {:.2g} at least",
+                                           evidence.slow_ratio, least_ratio)));
   } else if (std::isnan(evidence.chance) && size_off(evidence) > size_limit(evidence) && !size_shown(evidence)) {
     // It fits about as well at a size far from its own: two valleys, and nothing shows that this one is the object's.
     out.push_back(make_verdict("shape_unproven",
@@ -159,10 +158,10 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                "would not fit as well"));
   }
   if (evidence.chance > (as_stated ? kChanceAsStated : kChance)) {
-    out.push_back(make_verdict(
-        "shape_unproven", fmt::format("the pose stands out of all others on this mesh no more than the best pose of "
-                                      "another object would, with a probability of {:.2g}",
-                                      evidence.chance)));
+    out.push_back(
+        make_verdict("shape_unproven", fmt::format("the pose differs from all others on this mesh no more than the "
+                                                   "best pose of another object would, with a probability of {:.2g}",
+                                                   evidence.chance)));
   }
   judge_scale(evidence, out);
   if (!evidence.searched) {

@@ -77,7 +77,7 @@ Verdicts judge_rendering(const RenderingEvidence& evidence) {
         "rendering_poor",
         std::isfinite(evidence.score)
             ? fmt::format("check of the renderer: a score of {:.2f} is poor ({})", evidence.score, evidence.comparison)
-            : "check of the renderer: there is no score, for nothing could be compared"));
+            : "check of the renderer: nothing could be compared, so the check has no score"));
   }
   return out;
 }

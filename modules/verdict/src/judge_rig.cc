@@ -115,13 +115,15 @@ class RigJudge {
   }
 
   void judge_gravity() {
-    if (e_.strokes_at_rest == 0) say("gravity_unchecked", "the probe is never at rest: gravity is not checked");
+    if (e_.strokes_at_rest == 0) say("gravity_unchecked", "the probe is never stationary: gravity is not checked");
     if (std::abs(gravity_error()) > limits_.gravity) {
-      say("gravity_off", fmt::format("at rest the accelerometer is {:+.1f} % off gravity", 100.0 * gravity_error()));
+      say("gravity_off",
+          fmt::format("the stationary accelerometer differs from gravity by {:+.1f} %", 100.0 * gravity_error()));
     }
     if (e_.gravity_angle_rad > limits_.gravity_angle_rad) {
-      say("gravity_tilted", fmt::format("at rest the accelerometer's up is {:.1f} degrees from the world's",
-                                        e_.gravity_angle_rad / kDegree_rad));
+      say("gravity_tilted",
+          fmt::format("the up direction of the stationary accelerometer is {:.1f} degrees from the world's",
+                      e_.gravity_angle_rad / kDegree_rad));
     }
   }
 
@@ -148,7 +150,7 @@ class RigJudge {
     }
     if (!(e_.correlation < limits_.correlation)) return;
     const bool alone = is_trustworthy(out_);
-    std::string message = fmt::format("the profile is not the sine: correlation {:.3f}, {:.1f} µm RMS beside it",
+    std::string message = fmt::format("the profile is not the sine: correlation {:.3f}, {:.1f} µm RMS from it",
                                       e_.correlation, 1e6 * e_.shape_rms_m);
     if (alone) {
       say("shape_off", std::move(message));

@@ -58,14 +58,15 @@ void judge_force(const ScanEvidence& e, Verdicts& out) {
         fmt::format("the accelerometer reads {:.3g} times what gravity and the tracker's poses predict", worst_ratio)));
   } else if (e.force_difference_share > kForceTolerance) {
     out.push_back(make_verdict(
-        "wrong_frame", fmt::format("the accelerometer differs from gravity and the tracker's poses by {:.0f} % of what "
-                                   "they predict",
-                                   100.0 * e.force_difference_share)));
+        "wrong_frame",
+        fmt::format(
+            "the accelerometer differs from the prediction of gravity and the tracker's poses by {:.0f} % of it",
+            100.0 * e.force_difference_share)));
   }
   const bool clipped_away =
       clipped_factor <= kNotByClipping && std::abs(e.clipped_force_ratio - 1.0) > kClippedTolerance;
   if (clipped_away || e.clipped_share > kLost_share) {
-    const std::string taken = clipped_away ? fmt::format(", which took {:.0f} % of its mean away",
+    const std::string taken = clipped_away ? fmt::format(", which reduced its mean by {:.0f} %",
                                                          100.0 * std::abs(1.0 - e.clipped_force_ratio))
                                            : "";
     out.push_back(make_verdict("clipped", fmt::format("{:.2g} % of the accelerometer's samples are at the end of its "
@@ -153,8 +154,8 @@ void judge_streams(const ScanEvidence& e, Verdicts& out) {
                                       "makes",
                                       1e3 * e.departure_m, e.departure_ratio)));
   } else if (share(e.poses_outlying, poses) > kOutlying_share) {
-    out.push_back(make_verdict(
-        "poses_outlying", fmt::format("{} of {} tracker poses had to be given less weight", e.poses_outlying, poses)));
+    out.push_back(make_verdict("poses_outlying",
+                               fmt::format("{} of {} tracker poses were down-weighted", e.poses_outlying, poses)));
   }
   if (e.repeated_share > kRepeated_share)
     out.push_back(make_verdict("tracker_repeats", "the tracker repeats the same pose"));
@@ -230,10 +231,10 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
                           (e.snr > 0.0 && e.expected_correlation >= in_place * kSeen_correlation) ||
                           (e.pattern_found && e.expected_correlation >= in_place * limit);
   if (!stands_out) {
-    out.push_back(make_verdict(
-        "below_noise", fmt::format("the texture does not stand out of its noise: below what this probe can see, at "
-                                   "most {:.3g} µm RMS in {:.3g} µm of expected noise",
-                                   1e6 * e.at_most_m, 1e6 * e.noise_rms_m)));
+    out.push_back(
+        make_verdict("below_noise", fmt::format("the texture is not above its noise: it is below the resolution of "
+                                                "this probe, at most {:.3g} µm RMS in {:.3g} µm of expected noise",
+                                                1e6 * e.at_most_m, 1e6 * e.noise_rms_m)));
     return;
   }
   // What noise leaves: by the SNR or, where a line stands out of it, by the expected correlation.
@@ -256,9 +257,11 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
 
 void judge_sticking(const ScanEvidence& e, Verdicts& out) {
   if (e.sticks < kFewSticks || !(e.stuck_share >= kStuck_share)) return;
-  out.push_back(make_verdict("stick_slip", fmt::format("the tip stuck and slipped {} times ({:.0f} % of the contact): "
-                                                       "what the jumps shake is in the heights",
-                                                       e.sticks, 100.0 * e.stuck_share)));
+  out.push_back(make_verdict(
+      "stick_slip",
+      fmt::format(
+          "the tip stuck and slipped {} times ({:.0f} % of the contact): the vibration of the jumps is in the heights",
+          e.sticks, 100.0 * e.stuck_share)));
 }
 
 void judge_surface(const ScanEvidence& e, Verdicts& out) {
@@ -270,24 +273,23 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   if (e.contact_s < kLeastContact_s) {
     out.push_back(make_verdict("nothing_touched", e.contact_s > 0.0
                                                       ? fmt::format("the tip touched for {:.2g} s only", e.contact_s)
-                                                      : std::string("the tip touched nothing")));
+                                                      : std::string("the tip did not touch a surface")));
     return;
   }
   if (!e.no_profile.empty()) {
-    out.push_back(make_verdict("no_profile", "there is no profile: " + e.no_profile));
+    out.push_back(make_verdict("no_profile", "the profile is missing: " + e.no_profile));
     return;
   }
   // Within its own width a tip meets one place only.
   if (e.length_m < 2.0 * e.tip_radius_m || e.length_m < kTwoSided95 * e.length_stderr_m) {
     out.push_back(
-        make_verdict("not_moved", fmt::format("the tip moved {:.2g} mm only while it touched", 1e3 * e.length_m)));
+        make_verdict("not_moved", fmt::format("the tip moved {:.2g} mm only while in contact", 1e3 * e.length_m)));
     return;
   }
   if (!e.has_force && e.covered < kLeastCoverageWithoutForce) {
-    out.push_back(make_verdict(
-        "nothing_touched", fmt::format("there is no force, and only {:.0f} % of the path is near one surface: nothing "
-                                       "shows that the tip touched",
-                                       100.0 * e.covered)));
+    out.push_back(make_verdict("nothing_touched", fmt::format("force was not measured, and only {:.0f} % of the path "
+                                                              "is near one surface: nothing shows that the tip touched",
+                                                              100.0 * e.covered)));
     return;
   }
   if (e.covered < e.min_coverage) {
@@ -304,8 +306,8 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   judge_noise(e, out);
   judge_passes(e.passes, out);
   judge_sticking(e, out);
-  if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "there is no roughness: " + e.no_roughness));
-  if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "there is no texture: " + e.no_texture));
+  if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "roughness is missing: " + e.no_roughness));
+  if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "the texture is missing: " + e.no_texture));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kLeastExponent = 0.3;
 const char* quiet_name(StrokeQuiet quiet) {
   switch (quiet) {
     case StrokeQuiet::kRest:
-      return "at rest";
+      return "while stationary";
     case StrokeQuiet::kAir:
       return "without contact";
     case StrokeQuiet::kAirMotion:
@@ -44,7 +44,7 @@ void judge_power(const StrokeEvidence& e, Verdicts& out) {
   if (e.quiet == StrokeQuiet::kQuietest) {
     if (by_chance || e.power_ratio < kLeastRatioOfQuietest) {
       out.push_back(make_verdict("contact_undetermined",
-                                 "without positions and force, vibration and noise cannot be told apart: " + found));
+                                 "without positions and force, vibration and noise cannot be distinguished: " + found));
     }
   } else if (by_chance || e.power_ratio < kLeastRatio) {
     out.push_back(make_verdict("vibration_is_noise", "the acceleration is not of the stroke: " + found));
@@ -61,7 +61,7 @@ void judge_growth(const StrokeEvidence& e, Verdicts& out) {
   const double slack = e.speed_exponent_margin;
   if (!std::isfinite(e.speed_exponent)) {
     out.push_back(make_verdict("contact_undetermined",
-                               "no part of the recording is quiet: vibration and noise cannot be told apart"));
+                               "no part of the recording is quiet: vibration and noise cannot be distinguished"));
     return;
   }
   const std::string found = fmt::format("no part is quiet, and the power grows with the speed to the {:.2g} ± {:.2g}",
@@ -69,7 +69,7 @@ void judge_growth(const StrokeEvidence& e, Verdicts& out) {
   if (e.speed_exponent + slack < kLeastExponent) {
     out.push_back(make_verdict("vibration_is_noise", "the acceleration is not of the stroke: " + found));
   } else if (!(e.speed_exponent - slack >= kLeastExponent)) {
-    out.push_back(make_verdict("contact_undetermined", "vibration and noise cannot be told apart: " + found));
+    out.push_back(make_verdict("contact_undetermined", "vibration and noise cannot be distinguished: " + found));
   }
 }
 
@@ -81,8 +81,9 @@ Verdicts judge_stroke(const StrokeEvidence& e) {
   const bool moves = !e.has_speed || e.moving_s >= kShortest_s;
   if (!touches) {
     out.push_back(make_verdict(
-        "nothing_touched", fmt::format("the force is never {:g} N or more for {:g} s on end; the largest is {:.3g} N",
-                                       e.contact_N, kShortest_s, e.largest_force_N)));
+        "nothing_touched",
+        fmt::format("the force is never {:g} N or more for {:g} s without interruption; the largest is {:.3g} N",
+                    e.contact_N, kShortest_s, e.largest_force_N)));
   } else if (!moves) {
     out.push_back(make_verdict(
         "not_moved", fmt::format("the tip is faster than 10 mm/s {}for {:.2g} s only; the largest speed is {:.3g} mm/s",
@@ -93,17 +94,17 @@ Verdicts judge_stroke(const StrokeEvidence& e) {
     judge_growth(e, out);
   }
   if (!e.has_force)
-    out.push_back(make_verdict("contact_unknown", "no force was measured: that the tip touched is not shown"));
+    out.push_back(make_verdict("contact_unknown", "force was not measured, so that contact is not shown"));
   // A sensor that was not zeroed, or the weight of the tool, has a force in the air, too.
   if (e.has_force && e.contact_s > 0.0 && e.free_s < kShortestFree_s) {
-    out.push_back(make_verdict("force_zero_unseen",
-                               fmt::format("the force is below {:g} N for {:.2g} s only: contact cannot be told from a "
-                                           "sensor that was not zeroed",
-                                           0.5 * e.contact_N, e.free_s)));
+    out.push_back(
+        make_verdict("force_zero_unseen", fmt::format("the force is below {:g} N for {:.2g} s only: contact cannot be "
+                                                      "distinguished from a sensor that was not zeroed",
+                                                      0.5 * e.contact_N, e.free_s)));
   }
   if (!e.has_speed) {
     out.push_back(make_verdict("lengths_undetermined",
-                               "no positions were measured, so there are no lengths but by the speed that is stated"));
+                               "no positions were measured, so that lengths are known by the stated speed only"));
   }
   sort_verdicts(out);
   return out;

@@ -60,7 +60,7 @@ constexpr VerdictCode kCodes[] = {
     // A stroke without orientations (judge_stroke.h).
     {"vibration_is_noise", kInvalid, "record a stroke in contact, faster, or with a sensor of less noise"},
     {"contact_undetermined", kInvalid,
-     "record positions or force too, or a second of rest before the stroke, or state the sensor's noise"},
+     "record positions or force too, or one stationary second before the stroke, or state the sensor's noise"},
     {"vibration_weak", kLimited, "stroke faster, or use a sensor of less noise"},
     {"force_zero_unseen", kLimited, "record a moment with the tip lifted off the surface"},
     {"lengths_undetermined", kLimited, "record positions too, or state the speed"},
@@ -104,7 +104,7 @@ constexpr VerdictCode kCodes[] = {
     {"no_path_on_mesh", kInvalid, "check the guess and the mesh's unit"},
     {"no_haptic_coordinates", kInvalid, "scan each connected part of the mesh by itself"},
     // An area of many strokes (judge_area.h).
-    {"area_unregistered", kInvalid, "register the scans again, as their verdicts say"},
+    {"area_unregistered", kInvalid, "register the scans again, as their verdicts state"},
     {"strokes_disagree", kInvalid, "check the scans' verdicts and their poses on the mesh, and scan slower"},
     {"strokes_untied", kInvalid, "scan strokes that cross the others, or nearer to each other"},
     {"area_below_noise", kInvalid, "scan slower, or use a probe with less noise"},
@@ -124,7 +124,7 @@ constexpr VerdictCode kCodes[] = {
     {"markers_hidden", kInvalid, "keep the markers in view, lit and in focus"},
     {"source_failed", kInvalid, "check the connection and record again"},
     {"gravity_implausible", kInvalid, "use the calibration of this probe"},
-    {"gravity_assumed", kLimited, "hold the probe at rest for two seconds at the beginning"},
+    {"gravity_assumed", kLimited, "hold the probe still for two seconds at the beginning"},
     {"no_tracker", kLimited, "record with a tracker to measure positions"},
     {"no_calibration", kLimited, "give the probe's calibration to measure in SI units"},
     {"images_skipped", kLimited, "lower the camera's frame rate or resolution"},
@@ -144,7 +144,7 @@ constexpr VerdictCode kCodes[] = {
     {"force_slope_unknown", kInvalid, "measure more forces over a wider range"},
     {"force_saturated", kInvalid, "leave those points out"},
     {"force_not_straight", kLimited, "use the sensor in the part of its range where it is straight"},
-    {"force_outlier", kNote, "look at it again"},
+    {"force_outlier", kNote, "measure this point again, or leave it out"},
     {"counts_coarse", kNote, "use a converter with more bits"},
     {"gravity_missed", kInvalid, "hold the probe still, leaned on something"},
     {"accelerometer_uncertain", kLimited, "record more poses, in more directions"},
@@ -155,7 +155,7 @@ constexpr VerdictCode kCodes[] = {
     {"tip_uncertain", kLimited, "swing wider and longer"},
     {"little_in_dimple", kLimited, "record the swing alone"},
     {"latency_uncertain", kLimited, "shake the probe longer, irregularly, two or three times a second"},
-    {"imu_place_uncertain", kLimited, "turn the probe by some 30 degrees about all its axes"},
+    {"imu_place_uncertain", kLimited, "rotate the probe by some 30 degrees about all its axes"},
     {"imu_rotation_uncertain", kLimited, "move the probe longer, and about all axes"},
     // Tags followed in images.
     {"body_hardly_found", kInvalid, "check the markers' family, ids and size, the light and the focus"},
@@ -185,7 +185,7 @@ constexpr VerdictCode kCodes[] = {
     {"shape_off", kInvalid, "check the print for roughness and dirt, the tip for wear, and that it stays in contact"},
     {"latency_scatters", kInvalid, "fix the marker, and relieve the host: it must stamp images and samples evenly"},
     {"few_strokes", kLimited, "scan more strokes"},
-    {"gravity_unchecked", kLimited, "hold the probe at rest for two seconds before a stroke"},
+    {"gravity_unchecked", kLimited, "hold the probe still for two seconds before a stroke"},
     {"calibration_unstated", kNote, "calibrate with `asperity calibrate`"},
     // A run at a device, and a scan beside what is rendered of it (judge_rendering.h).
     {"device_fault", kInvalid, "check the device's cable, power and driver, and run again"},

@@ -41,7 +41,7 @@ TEST(JudgeRecording, NamesEachFaultByItsCode) {
       {"sensor_faults", "not found", [](Evidence& e) { e.sensor_faults = "inertial sensor: not found"; }},
       {"no_tracker", "no tracker", [](Evidence& e) { e.has_tracker = false; }},
       {"no_poses", "no pose was found", [](Evidence& e) { e.poses = 0; }},
-      {"no_poses", "in what was stored", [](Evidence& e) { e.poses_stored = 0; }},
+      {"no_poses", "the stored recording has no pose", [](Evidence& e) { e.poses_stored = 0; }},
       {"markers_hidden", "only 20 %", [](Evidence& e) { e.poses = 100; }},
       {"images_skipped", "30 images", [](Evidence& e) { e.frames_skipped = 30; }},
       {"frames_not_kept", "4 images", [](Evidence& e) { e.frames_not_kept = 4; }},

@@ -102,7 +102,7 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
        }},
       {"tracker_repeats", "repeats", [](ScanEvidence& e) { e.repeated_share = 0.6; }},
       {"clipped", "60 %", [](ScanEvidence& e) { e.clipped_share = 0.6; }},
-      {"clipped", "took 16 % of its mean away",
+      {"clipped", "reduced its mean by 16 %",
        [](ScanEvidence& e) {
          e.clipped_force_ratio = 0.84;
          e.accel_bias_mps2 = 4.2;  // by the same cause
@@ -121,7 +121,7 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
        }},
       {"spikes", "600 of 5000", [](ScanEvidence& e) { e.samples_rejected = 600; }},
       {"no_profile", "no profile: too short", [](ScanEvidence& e) { e.no_profile = "too short"; }},
-      {"nothing_touched", "touched nothing", [](ScanEvidence& e) { e.contact_s = 0.0; }},
+      {"nothing_touched", "did not touch a surface", [](ScanEvidence& e) { e.contact_s = 0.0; }},
       {"nothing_touched", "only 60 %",
        [](ScanEvidence& e) {
          e.has_force = false;

@@ -17,7 +17,7 @@ const Vision& load_vision() {
   const Vision* const table = entry();
   if (table->program != std::string_view(kVersion) || table->compiler != std::string_view(__VERSION__)) {
     throw Error(std::string("vision: libasperity_vision.so is asperity ") + table->program + " by compiler " +
-                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both anew");
+                table->compiler + ", this program is " + kVersion + " by " __VERSION__ "; install both again");
   }
   return *table;
 }

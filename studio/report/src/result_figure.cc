@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/read_path.h"
@@ -191,6 +192,7 @@ ResultFigure make_result_figure(std::span<const FigureSource> sources, std::span
     for (const std::string& missing : build.out.missing) what += (what.empty() ? "" : ", ") + missing;
     throw Error(called(sources.empty() ? fs::path() : sources.front().path) + ": nothing to draw: " + what);
   }
+  if (parts.empty()) build.out.missing.clear();  // all that there is was asked for
   for (const DrawnResult& result : results) {
     build.out.figure.title += (build.out.figure.title.empty() ? "" : ", ") + result.name;
     if (!result.invalid.empty())

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "align/shell_words.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "asperity/json/parse_json.h"
@@ -124,7 +125,7 @@ Json write_align_area(const AlignArea& area, const Project& project, const std::
   const fs::path target = project.writable(name);
   if (target == project.writable(area.folder))
     throw Advice(name + ": the scans of the area are in there", "Write it into another folder.");
-  OutputFolder folder(target, is_our_folder);
+  OutputFolder folder(target, naming_added(is_our_folder));
   write_area(folder.path(), area.input, area.result);
   Json files = Json::array();
   std::vector<std::string> pictures;

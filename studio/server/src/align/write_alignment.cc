@@ -7,6 +7,7 @@
 
 #include "align/align_run.h"
 #include "align/shell_words.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_registration.h"
@@ -67,7 +68,7 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   if (!name && !is_of_scene(choice))
     throw Advice("the mesh is not that of a scene", "Choose a scene.json as the mesh, or write into a folder.");
   std::optional<OutputFolder> folder;
-  if (name) folder.emplace(project.writable(*name), is_registration_folder);
+  if (name) folder.emplace(project.writable(*name), naming_added(is_registration_folder));
   observer.update("reading", 0.0);
   std::vector<std::string> scans, textures;
   for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/version.h"
 #include "asperity/scene/export_scene.h"
@@ -165,7 +166,7 @@ class PaintPage : public Page {
     answer_by_job(shared_.jobs, request, "Writing " + name, "paint.write",
                   [cache = cache_, project = &shared_.project, hub = &shared_.hub, painting, file, target,
                    name](const Observer& observer) {
-                    OutputFolder folder(target, is_our_folder);
+                    OutputFolder folder(target, naming_added(is_our_folder));
                     const PaintedScene painted =
                         paint_all(cache->read(file, painting.unit_m, observer), painting, *project, observer);
                     for (const PaintedStroke& stroke : painted.strokes) {
@@ -190,7 +191,7 @@ class PaintPage : public Page {
     const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Exporting " + name, "paint.export",
                   [source, format, target, name, hub = &shared_.hub](const Observer& observer) {
-                    OutputFolder folder(target, is_our_folder);
+                    OutputFolder folder(target, naming_added(is_our_folder));
                     observer.update("reading", 0.0);
                     const Scene scene = read_export_source(source, observer);
                     observer.update("exporting", 0.3);

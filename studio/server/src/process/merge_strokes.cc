@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "asperity/base/error.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_result.h"
@@ -84,7 +85,7 @@ BlockWriter merge_block(const MergedStrokes& merged) {
 Json write_merged(const fs::path& target, const MergedStrokes& merged) {
   if (!merged.result.passes->agrees)
     throw Advice(merged.result.verdict, "Choose strokes over one line; nothing was written.");
-  OutputFolder folder(target, is_result_folder);
+  OutputFolder folder(target, naming_added(is_result_folder));
   write_merge(folder.path(), merged.result, merged.config, merged.object);
   Json notes = Json::array();
   for (const Verdict& verdict : merged.result.verdicts) {

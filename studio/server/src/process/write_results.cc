@@ -4,6 +4,7 @@
 #include <set>
 
 #include "asperity/base/error.h"
+#include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_result.h"
@@ -49,7 +50,7 @@ void check_names(const std::vector<NamedScan>& scans) {
 Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, const ProcessConfig& config,
                    ScanSessions& sessions, const Observer& observer) {
   check_names(scans);
-  OutputFolder folder(target, is_result_folder);
+  OutputFolder folder(target, naming_added(is_result_folder));
   Json files = Json::array(), notes = Json::array();
   std::vector<ReportItem> items;
   std::exception_ptr first_fault;

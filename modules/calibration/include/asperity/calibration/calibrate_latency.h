@@ -35,7 +35,7 @@ struct LatencyConfig {
   void visit(V& v) {
     v.choice("method", method, kLatencyMethodNames, "auto: by the gyroscope if the probe has one");
     v.field("solve_rotation", solve_rotation,
-            "solve for the sensor's rotation in the marker even if it is said to be known");
+            "solve for the sensor's rotation in the marker even if it is stated to be known");
     v.field("least_latency_s", least_latency_s, "the latency is sought from here, s", {-10.0, 10.0});
     v.field("largest_latency_s", largest_latency_s, "to here, s", {-10.0, 10.0});
     v.field("scan_step_s", scan_step_s, "step of the coarse search, s", {1e-5, 0.1});

@@ -27,13 +27,13 @@ struct CalibrateTipConfig {
   template <class V>
   void visit(V& v) {
     v.field("least_turn_rad", least_turn_rad,
-            "the search for the dimple takes a pose each time the probe turned by, rad", {0.0, 1.0});
+            "rotation of the probe from one pose to the next in the search for the dimple, rad", {0.0, 1.0});
     v.field("least_spread", least_spread, "a swing whose directions spread less in the worst direction is refused, rad",
             {0.0, 1.0});
     v.field("slip_sigmas", slip_sigmas, "a pose further from the dimple is left out, standard deviations",
             {3.0, 100.0});
     v.field("shortest_s", shortest_s, "stretches in the dimple shorter than this are left out, s", {0.0, 60.0});
-    v.field("settle_s", settle_s, "left out beside a stretch out of the dimple, s", {0.0, 60.0});
+    v.field("settle_s", settle_s, "left out before and after a stretch out of the dimple, s", {0.0, 60.0});
     v.field("least_share", least_share, "share of the poses in the dimple, else limited", {0.0, 1.0});
     v.field("residual_ratio", residual_ratio, "residual over the tracker's stated noise of a valid one", {0.1, 1000.0});
     v.field("uncertainty_m", uncertainty_m, "largest standard error of the tip, else limited, m", {0.0, 1.0});

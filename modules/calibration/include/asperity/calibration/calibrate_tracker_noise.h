@@ -30,18 +30,19 @@ struct TrackerNoiseConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("least_rest_s", least_rest_s, "shorter rests are not used, s", {0.1, 3600.0});
-    v.field("least_poses", least_poses, "rests with fewer poses are not used", {16, 1000000});
+    v.field("least_rest_s", least_rest_s, "shorter static intervals are not used, s", {0.1, 3600.0});
+    v.field("least_poses", least_poses, "static intervals with fewer poses are not used", {16, 1000000});
     v.field("block_s", block_s, "poses are averaged over this long to see whether the body moves, s", {0.01, 60.0});
-    v.field("rest_position_m", rest_position_m, "at rest the averages stay within this of their mean, m", {0.0, 1.0});
+    v.field("rest_position_m", rest_position_m, "in a static interval the averages stay within this of their mean, m",
+            {0.0, 1.0});
     v.field("rest_rotation_rad", rest_rotation_rad, "and the averaged rotations within this, rad", {0.0, 3.0});
-    v.field("largest_gap_s", largest_gap_s, "a rest ends where no pose came for longer, s", {0.01, 60.0});
+    v.field("largest_gap_s", largest_gap_s, "a static interval ends where no pose arrives for longer, s", {0.01, 60.0});
     v.field("outlier_sigmas", outlier_sigmas, "poses further off (robust standard deviations) are left out",
             {4.0, 1e6});
-    v.field("least_distance_ratio", least_distance_ratio, "the model needs rests whose distances differ by this factor",
-            {1.0, 100.0});
-    v.field("least_tilt_ratio", least_tilt_ratio, "its tilt needs rests whose cosines of tilt differ by this factor",
-            {1.0, 100.0});
+    v.field("least_distance_ratio", least_distance_ratio,
+            "the model needs static intervals whose distances differ by this factor", {1.0, 100.0});
+    v.field("least_tilt_ratio", least_tilt_ratio,
+            "its tilt needs static intervals whose cosines of tilt differ by this factor", {1.0, 100.0});
   }
 };
 

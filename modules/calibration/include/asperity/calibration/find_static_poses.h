@@ -23,7 +23,7 @@ struct FindStaticPosesConfig {
     v.field("still_counts", still_counts, "standard deviation below which the probe is still; 0: found from the data",
             {0.0, 1e12});
     v.field("same_pose", same_pose,
-            "rests that follow each other with means nearer than this are one pose, share of the readings' radius",
+            "successive static intervals with means nearer than this are one pose, share of the readings' radius",
             {0.0, 1.0});
   }
 };

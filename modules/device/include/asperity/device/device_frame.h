@@ -26,7 +26,7 @@ struct DeviceFrame {
   template <class V>
   void visit(V& v) {
     v.numbers("R_world_device_xyzw", R_world_device.coeffs().data(), 4, "unit quaternion", {-1.0, 1.0});
-    v.numbers("translation_m", translation_m.data(), 3, "where the device's origin stands in the scene", {-1e3, 1e3});
+    v.numbers("translation_m", translation_m.data(), 3, "position of the device's origin in the scene", {-1e3, 1e3});
     v.field("scale", scale, "metres of the scene for a metre of the hand", {1e-6, 1e6});
   }
 };

@@ -18,8 +18,9 @@ struct DhdConfig {
   void visit(V& v) {
     v.field("library", library, "path of the driver; empty: the system's, then $FDSDK's");
     v.field("rate_Hz", rate_Hz, "at which it wants to be served, Hz", {100.0, 4000.0});
-    v.field("stall_after_s", stall_after_s, "without news for so long the device is stalled, s", {0.002, 1.0});
-    v.field("watchdog_s", watchdog_s, "without a new force for so long the controller turns forces off, s",
+    v.field("stall_after_s", stall_after_s, "time without a reading after which the device is stalled, s",
+            {0.002, 1.0});
+    v.field("watchdog_s", watchdog_s, "time without a new force after which the controller switches forces off, s",
             {0.002, 0.031875});
   }
 };

@@ -37,13 +37,13 @@ struct TwoDiyConfig {
   void visit(V& v) {
     v.field("port", port, "serial port of the board");
     v.field("device_id", device_id, "number of the mechanism at the board", {0, 255});
-    v.field("directions", directions, "the firmware takes directions of motors and encoders");
-    v.choice("plane", plane, kTwoDiyPlaneNames, "how it stands");
+    v.field("directions", directions, "the firmware accepts directions of motors and encoders");
+    v.choice("plane", plane, kTwoDiyPlaneNames, "orientation of the device");
     v.field("mirror_x", mirror_x, "x runs from motor 2 to motor 1");
     v.field("proximal_m", proximal_m, "arm from a motor to its elbow, m", {0.005, 1.0});
     v.field("distal_m", distal_m, "arm from an elbow to the tip, m", {0.005, 1.0});
     v.field("base_m", base_m, "between the motors, m", {0.0, 1.0});
-    v.field("encoder_counts", encoder_counts, "of a turn", {100.0, 1e9});
+    v.field("encoder_counts", encoder_counts, "per rotation", {100.0, 1e9});
     v.field("offset_deg", offset_deg, "angles of the arms while it is opened, degrees", {-360.0, 360.0});
     v.field("max_torque_N_m", max_torque_N_m, "of a motor, N m", {0.001, 10.0});
     v.field("rate_Hz", rate_Hz, "questions to the board, Hz", {50.0, 4000.0});

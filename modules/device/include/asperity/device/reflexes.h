@@ -38,7 +38,7 @@ struct ReflexConfig {
 // Why the loop itself ended a run.
 enum class ReflexFault : std::uint8_t { kNone, kImplausible, kLostTicks, kSuspended };
 inline constexpr std::array<std::string_view, 4> kReflexFaultWords{
-    "", "its positions jump, stand still while they move, or contradict its velocity",
+    "", "its positions jump, stop changing during motion, or contradict its velocity",
     "the servo loop was not run for too long", "the machine was suspended"};
 
 // What check_reading remembers. Begin with ReflexState{}.

@@ -25,13 +25,15 @@ struct RendererCheckConfig {
   template <class V>
   void visit(V& v) {
     v.field("segment_mm", segment_mm, "of the spectra's averaging, mm", {1e-3, 1e6});
-    v.field("least_part", least_part, "of the whole RMS: an octave below it in both is not felt", {0.0, 1.0});
+    v.field("least_part", least_part, "of the whole RMS: an octave below it in both is below the threshold",
+            {0.0, 1.0});
     v.field("half_dB", half_dB, "distance of spectra that halves their agreement, dB", {0.1, 100.0});
     v.field("half_distribution", half_distribution,
             "distance of the heights' distributions that halves their agreement, in RMS heights", {1e-3, 100.0});
     v.field("min_score", min_score, "a score below it is invalid", {0.0, 1.0});
     v.former("poor");
-    v.field("min_contact_fraction", min_contact_fraction, "part of the scan's contact that must be felt", {0.0, 1.0});
+    v.field("min_contact_fraction", min_contact_fraction, "part of the scan's contact that must be rendered",
+            {0.0, 1.0});
     v.former("least_touched");
     v.group("comparison", comparison);
   }

@@ -48,7 +48,7 @@ struct MappingConfig {
   void visit(V& v) {
     v.field("columns", columns, "what columns of any of the files mean");
     v.field("euler", euler, "the order of the Euler angles: xyz, zyx, …");
-    v.choice("euler_axes", euler_axes, kEulerAxesNames, "whether each angle is about the turned or the fixed axis");
+    v.choice("euler_axes", euler_axes, kEulerAxesNames, "whether each angle is about the rotated or the fixed axis");
     v.field("quaternion", quaternion, "the order in a range of columns, wxyz or xyzw");
     v.field("invert_rotation", invert_rotation, "the rotations are from the world to the body");
     v.field("up", up, "the world's axis that points up: x, y, z, -x, -y, -z; empty: by the specific force");

@@ -26,7 +26,7 @@ struct ScanHintsConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("finest_wavelength_mm", finest_wavelength_mm, "finest wavelength of the texture wanted, mm",
+    v.field("finest_wavelength_mm", finest_wavelength_mm, "shortest wavelength of the texture to be measured, mm",
             {0.01, 1000.0});
     v.field("samples_per_wave", samples_per_wave, "samples of the accelerometer that such a wave needs", {2.0, 100.0});
     v.field("wavelength_periods_of_tracker", wavelength_periods_of_tracker,
@@ -39,10 +39,10 @@ struct ScanHintsConfig {
     v.field("rows_lost_share", rows_lost_share, "share of rows lost", {0.0, 1.0});
     v.field("silent_s", silent_s, "without a row from the probe, s", {0.01, 60.0});
     v.field("marker_lost_s", marker_lost_s, "without a pose, s", {0.01, 60.0});
-    v.field("marker_error_s", marker_error_s, "without a pose for so long there is no height, s", {0.01, 60.0});
+    v.field("marker_error_s", marker_error_s, "time without a pose after which heights are missing, s", {0.01, 60.0});
     v.field("tilt_deg", tilt_deg, "angle between the probe's axis and the surface's normal, degrees", {1.0, 90.0});
-    v.field("tilt_rate_degps", tilt_rate_degps, "the probe's turning, degrees/s", {1.0, 1e4});
-    v.field("doubling_back_m", doubling_back_m, "way back along the stroke, m", {0.0, 1.0});
+    v.field("tilt_rate_degps", tilt_rate_degps, "angular speed of the probe, degrees/s", {1.0, 1e4});
+    v.field("doubling_back_m", doubling_back_m, "distance back along the stroke, m", {0.0, 1.0});
     v.field("hysteresis", hysteresis, "share of a limit by which it must be better for a hint to go", {0.0, 0.9});
     v.field("appear_s", appear_s, "a condition shorter than this gives no hint, s", {0.0, 60.0});
     v.field("vanish_s", vanish_s, "a hint goes after things have been better for this time, s", {0.0, 60.0});

@@ -18,7 +18,8 @@ namespace asperity {
 struct EarlierScene {
   Scene scene;
   std::string file = "scene.json";  // in `folder`
-  std::filesystem::path folder;     // empty: a mesh alone
+  std::filesystem::path folder;     // resolved, absolute; empty: a mesh alone
+  std::filesystem::path given;      // the same as the caller named it, for messages
   std::set<std::string> files;      // that we have written into the folder: they go on with the scene
   std::set<std::string> own_files;  // that the scene had when it was read: they are written again
   Json registration;                // of registration.json; null if there is none

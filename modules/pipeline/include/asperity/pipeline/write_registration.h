@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/json/json.h"
 #include "asperity/pipeline/earlier_scene.h"
@@ -41,8 +42,8 @@ void write_registration(const std::filesystem::path& folder, const ScansOnMesh& 
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m);
 
-// True if `folder` holds a registration.json of ours and nothing but the files that it lists and report.html. Never
-// throws.
-bool is_registration_folder(const std::filesystem::path& folder) noexcept;
+// True if `folder` holds a registration.json of ours and nothing but the files that it lists and report.html;
+// otherwise with the first other file. Never throws.
+FolderContent is_registration_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace asperity

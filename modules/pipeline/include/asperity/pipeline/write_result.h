@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "asperity/base/folder_content.h"
 #include "asperity/json/json.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/recording/recording.h"
@@ -27,7 +28,7 @@ void write_result(const std::filesystem::path& folder, const ProcessResult& resu
 void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Json& json);
 
 // True if `folder` holds a result.json of ours, or nothing but folders that do, or folders of such; a report.html may
-// be beside. Never throws.
-bool is_result_folder(const std::filesystem::path& folder) noexcept;
+// be beside. Otherwise with a file or folder that was added to such a folder. Never throws.
+FolderContent is_result_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace asperity

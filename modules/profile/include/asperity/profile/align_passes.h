@@ -22,10 +22,10 @@ struct AlignPassesConfig {
     v.field("high_cycles_per_mm", high_cycles_per_mm, "waves up to here align the passes", {1e-3, 20.0});
     v.field("max_stretch", max_stretch, "largest relative difference of the passes' lengths that is searched",
             {0.0, 0.1});
-    v.field("min_overlap", min_overlap, "part of the shorter pass that must lie on the other", {0.1, 1.0});
+    v.field("min_overlap", min_overlap, "part of the shorter pass that must be on the other", {0.1, 1.0});
     v.field("false_alarm", false_alarm, "chance that passes over different lines count as agreeing", {1e-12, 0.5});
     v.field("knot_spacing_m", knot_spacing_m, "of the knots of the passes' stretch", {1e-4, 1.0});
-    v.field("place_sigma_m", place_sigma_m, "standard deviation of a place along the path where a pass states none",
+    v.field("place_sigma_m", place_sigma_m, "standard deviation of a position along the path where a pass states none",
             {1e-6, 0.1});
   }
 };

@@ -25,9 +25,9 @@ struct ComparisonConfig {
     v.field("high_cycles_per_mm", high_cycles_per_mm, "upper edge of the compared band, -3 dB", {1e-3, 20.0});
     v.field("max_shift_m", max_shift_m, "largest rigid shift between the two", {0.0, 1.0});
     v.field("spacing_m", spacing_m, "at which both are compared", {1e-7, 1e-2});
-    v.field("bridge_m", bridge_m, "gap across which the band-pass goes on", {0.0, 1.0});
-    v.field("margin_m", margin_m, "left out beside ends and gaps that were not bridged", {0.0, 1.0});
-    v.field("bridge_margin_m", bridge_margin_m, "left out beside bridged gaps", {0.0, 1.0});
+    v.field("bridge_m", bridge_m, "gap across which the band-pass continues", {0.0, 1.0});
+    v.field("margin_m", margin_m, "left out next to ends and gaps that were not bridged", {0.0, 1.0});
+    v.field("bridge_margin_m", bridge_margin_m, "left out next to bridged gaps", {0.0, 1.0});
     v.field("max_hole_m", max_hole_m, "distance between samples that is still interpolated", {1e-7, 1.0});
   }
 };

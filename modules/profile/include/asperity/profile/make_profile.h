@@ -25,11 +25,11 @@ struct ProfileConfig {
     v.field("cutoff_cycles_per_mm", cutoff_cycles_per_mm,
             "high-pass of texture_m, -3 dB of the whole filter; 0 for none", {0.0, 10.0});
     v.field("max_hole_m", max_hole_m, "distance between samples that is still interpolated", {1e-7, 1.0});
-    v.field("bridge_m", bridge_m, "gap across which the high-pass goes on", {0.0, 1.0});
-    v.field("max_stop_s", max_stop_s, "a longer rest parts the profile: the slow error has moved on", {0.01, 1e4});
+    v.field("bridge_m", bridge_m, "gap across which the high-pass continues", {0.0, 1.0});
+    v.field("max_stop_s", max_stop_s, "a longer pause divides the profile, because the drift has changed", {0.01, 1e4});
     v.field("max_force_hole_s", max_force_hole_s, "time between force readings that is still interpolated",
             {0.0, 10.0});
-    v.field("remove_noise", remove_noise, "take the expected noise out of the heights (Wiener's filter)");
+    v.field("remove_noise", remove_noise, "remove the expected noise from the heights (Wiener's filter)");
     v.field("contact_resonance_Hz", contact_resonance_Hz,
             "of the probe's mass on the contact, where it is known: heights are the surface's then, not the tip's; 0: "
             "they are the tip's",

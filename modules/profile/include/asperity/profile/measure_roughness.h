@@ -47,7 +47,7 @@ struct RoughnessConfig {
     v.field("element_height", element_height, "RSm: hills and pits below this part of Rz are not counted", {0.0, 1.0});
     v.field("element_width", element_width, "RSm: hills and pits below this part of a section are not counted",
             {0.0, 1.0});
-    v.field("peak_prominence", peak_prominence, "R5p, R5v: part of Rz that a peak must stand out by", {0.0, 1.0});
+    v.field("peak_prominence", peak_prominence, "R5p, R5v: least prominence of a peak, as a part of Rz", {0.0, 1.0});
     v.field("max_missing", max_missing, "largest part of the heights that may be nan", {0.0, 1.0});
   }
 };

@@ -22,12 +22,14 @@ struct RestConfig {
   template <class V>
   void visit(V& v) {
     v.field("window_s", window_s, "length of the stretches that are judged, s", {0.05, 10.0});
-    v.field("acceleration_mps2", acceleration_mps2, "at rest the acceleration deviates less on each axis, m/s^2",
-            {0.0, 100.0});
-    v.field("position_m", position_m, "at rest the position deviates less on each axis, m", {0.0, 1.0});
-    v.field("rotation_rad", rotation_rad, "at rest the rotation deviates less about each axis, rad", {0.0, 1.0});
+    v.field("acceleration_mps2", acceleration_mps2,
+            "deviation of the acceleration on each axis while stationary, at most, m/s^2", {0.0, 100.0});
+    v.field("position_m", position_m, "deviation of the position on each axis while stationary, at most, m",
+            {0.0, 1.0});
+    v.field("rotation_rad", rotation_rad, "deviation of the rotation about each axis while stationary, at most, rad",
+            {0.0, 1.0});
     v.field("magnitude_tolerance", magnitude_tolerance,
-            "a measured gravity this far from 9.80665 m/s^2 is not believed, share", {0.0, 1.0});
+            "deviation from 9.80665 m/s^2 from which a measured gravity is invalid, share", {0.0, 1.0});
   }
 };
 

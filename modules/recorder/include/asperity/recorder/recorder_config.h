@@ -40,7 +40,7 @@ struct RecorderConfig {
     v.field("pose_queue", pose_queue, "poses that may wait for the disk", {16, 100'000});
     v.field("flush_s", flush_s, "how often rows are handed to the operating system, s", {0.005, 0.15});
     v.field("sync_s", sync_s, "how often they are forced to the disk, s; 0: at the end only", {0.0, 3600.0});
-    v.field("stale_s", stale_s, "a sensor that gives nothing for so long is opened anew, s", {0.1, 3600.0});
+    v.field("stale_s", stale_s, "time without data after which a sensor is opened again, s", {0.1, 3600.0});
     v.field("first_retry_s", first_retry_s, "wait before a lost sensor is opened again, doubled each time, s",
             {0.01, 60.0});
     v.field("longest_retry_s", longest_retry_s, "and at most, s", {0.01, 600.0});

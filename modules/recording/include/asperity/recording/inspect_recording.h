@@ -23,19 +23,21 @@ struct InspectConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("quiet_s", quiet_s, "length of the stretch searched for rest, s", {0.01, 60.0});
-    v.field("rest_acceleration_mps2", rest_acceleration_mps2, "at rest the acceleration varies less, m/s^2",
-            {0.0, 100.0});
-    v.field("rest_position_m", rest_position_m, "at rest the position varies less, m", {0.0, 1.0});
-    v.field("flip_angle_rad", flip_angle_rad, "a turn from frame to frame that no hand makes, rad", {0.0, 3.15});
+    v.field("quiet_s", quiet_s, "length of the stretch in which the probe is stationary, s", {0.01, 60.0});
+    v.field("rest_acceleration_mps2", rest_acceleration_mps2,
+            "standard deviation of the acceleration while stationary, at most, m/s^2", {0.0, 100.0});
+    v.field("rest_position_m", rest_position_m, "standard deviation of the position while stationary, at most, m",
+            {0.0, 1.0});
+    v.field("flip_angle_rad", flip_angle_rad, "rotation from frame to frame that no hand makes, rad", {0.0, 3.15});
     v.field("flip_distance_m", flip_distance_m, "a step from frame to frame that no hand makes, m", {0.0, 10.0});
     v.field("rate_tolerance", rate_tolerance, "deviation from the nominal rate to report, share", {0.0, 1.0});
     v.field("lost_tolerance", lost_tolerance, "lost rows to report, share", {0.0, 1.0});
     v.field("gap_tolerance_s", gap_tolerance_s, "gap to report, s", {0.0, 3600.0});
     v.field("saturation_tolerance", saturation_tolerance, "saturated samples to report, share", {0.0, 1.0});
-    v.field("gravity_tolerance", gravity_tolerance, "deviation from gravity at rest to report, share", {0.0, 1.0});
-    v.field("gravity_angle_tolerance_rad", gravity_angle_tolerance_rad, "angle to gravity at rest to report, rad",
-            {0.0, 3.15});
+    v.field("gravity_tolerance", gravity_tolerance, "deviation from gravity while stationary to report, share",
+            {0.0, 1.0});
+    v.field("gravity_angle_tolerance_rad", gravity_angle_tolerance_rad,
+            "angle to gravity while stationary to report, rad", {0.0, 3.15});
   }
 };
 

@@ -31,19 +31,18 @@ struct RefineConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("enabled", enabled, "the pose is refined by what is known of the errors along the path");
+    v.field("enabled", enabled, "the pose is refined by the known errors along the path");
     v.field("memory_m", memory_m, "length of path over which the relief is correlated with itself", {1e-6, 1.0});
-    v.field("slow_length_m", slow_length_m, "length of path over which the tracker's slow error lasts", {1e-6, 10.0});
-    v.field("slow_factor", slow_factor, "of the slow error's standard deviation over the trajectory's own",
-            {0.0, 100.0});
-    v.field("knot_m", knot_m, "distance of the points between which the slow error is interpolated", {1e-6, 1.0});
+    v.field("slow_length_m", slow_length_m, "length of path over which the tracker's drift lasts", {1e-6, 10.0});
+    v.field("slow_factor", slow_factor, "of the drift's standard deviation over the trajectory's own", {0.0, 100.0});
+    v.field("knot_m", knot_m, "distance of the points between which the drift is interpolated", {1e-6, 1.0});
     v.field("outlier_sigmas", outlier_sigmas, "heights beyond this many standard deviations do not count", {2.0, 1e6});
     v.field("guess_sigma_m", guess_sigma_m, "how well the guess is known, without one the start, m", {1e-9, 1e6});
-    v.field("guess_sigma_deg", guess_sigma_deg, "how well its turn is, degrees", {1e-6, 1e6});
+    v.field("guess_sigma_deg", guess_sigma_deg, "how well its rotation is known, degrees", {1e-6, 1e6});
     v.field("other_starts", other_starts, "guesses about the given one from which fits are tried", {0, 10000});
     v.field("other_shift_m", other_shift_m, "largest shift of these, m", {0.0, 10.0});
-    v.field("other_turn_deg", other_turn_deg, "largest turn of these, degrees", {0.0, 180.0});
-    v.field("undetermined_deg", undetermined_deg, "standard deviation from which a turn is listed as undetermined",
+    v.field("other_turn_deg", other_turn_deg, "largest rotation of these, degrees", {0.0, 180.0});
+    v.field("undetermined_deg", undetermined_deg, "standard deviation from which a rotation is listed as undetermined",
             {1e-3, 360.0});
     v.field("overlap_m", overlap_m,
             "strokes nearer than this, across, meet the same texture, m; 0: overlaps do not count", {0.0, 1.0});

@@ -31,15 +31,17 @@ struct StartsConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("when", when, kOtherStartsNames, "starts other than the guess: never, when the fit is doubtful, always");
+    v.choice("when", when, kOtherStartsNames,
+             "starts other than the guess: never, doubtful (when the fit has a quality warning) or always");
     v.field("count", count, "of other starts", {0, 100000});
     v.field("points", points, "of the path that each runs with", {20, 100000});
     v.field("refined", refined, "best starts that are run to the end", {1, 1000});
     v.field("radius_m", radius_m, "largest shift of a start from the guess, m", {0.0, 1e3});
-    v.field("turn_deg", turn_deg, "largest turn of a start from the guess, degrees", {0.0, 180.0});
-    v.field("doubtful_ratio", doubtful_ratio, "of the residual to the path's noise, from which a fit is doubtful",
-            {1.0, 1e3});
-    v.field("doubtful_outliers", doubtful_outliers, "fraction of outliers from which a fit is doubtful", {0.0, 1.0});
+    v.field("turn_deg", turn_deg, "largest rotation of a start from the guess, degrees", {0.0, 180.0});
+    v.field("doubtful_ratio", doubtful_ratio,
+            "of the residual to the path's noise, from which a fit has a quality warning", {1.0, 1e3});
+    v.field("doubtful_outliers", doubtful_outliers, "fraction of outliers from which a fit has a quality warning",
+            {0.0, 1.0});
   }
 };
 
@@ -78,12 +80,12 @@ struct RegistrationConfig {
     v.field("isotropic", isotropic, "weight of the offset along the surface in the first step, 0 to 1", {0.0, 1.0});
     v.field("isotropic_decay", isotropic_decay, "its factor from step to step", {0.0, 0.99});
     v.field("guess_sigma_m", guess_sigma_m, "how well the guess is known, RMS over the points, m", {1e-9, 1e6});
-    v.field("guess_sigma_deg", guess_sigma_deg, "how well its turn is known, degrees", {1e-6, 1e6});
+    v.field("guess_sigma_deg", guess_sigma_deg, "how well its rotation is known, degrees", {1e-6, 1e6});
     v.field("error_length_m", error_length_m, "length of path over which errors last, m; 0: each point has its own",
             {0.0, 1e3});
     v.field("undetermined_m", undetermined_m, "standard deviation from which a motion is undetermined, m", {1e-9, 1e3});
     v.field("slide_m", slide_m, "motion that is tried to find that out, RMS over the points, m", {1e-9, 1e3});
-    v.field("surface_error_m", surface_error_m, "of the mesh against the object, beside its facets' sag, m",
+    v.field("surface_error_m", surface_error_m, "of the mesh against the object, in addition to its facets' sag, m",
             {0.0, 1e3});
     v.group("starts", starts);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/scene/displace_mesh.h"
 #include "asperity/scene/scene.h"
 #include "asperity/scene/texture_maps.h"
@@ -82,6 +83,7 @@ struct ExportResult {
 //   stl   each mesh with its textures as relief, for printing (displace_mesh.h), in millimetres
 // Files are named after the meshes and textures. A texture's warning is in its file where the format has a place for
 // text (not in stl). Throws Error if nothing is left to export.
-ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportConfig& config = {});
+ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportConfig& config = {},
+                          const Observer& observer = {});
 
 }  // namespace asperity

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 
@@ -24,8 +26,9 @@ int further_order(const SceneObject& object, LayAt at, int except = -1);
 void put_texture(SceneObject& object, SceneTexture texture);
 
 struct LaidTriangles {
-  std::size_t over = 0;   // triangles on which another texture was rendered before
-  std::size_t under = 0;  // triangles on which another one still is
+  std::size_t over = 0;                         // triangles on which another texture was rendered before
+  std::size_t under = 0;                        // triangles on which another one still is
+  std::map<std::int32_t, std::size_t> covered;  // of `over`, by the index of the texture that was rendered there
 };
 
 // Puts coordinates into the stacks of their triangles, those of one triangle in their given order: each over all

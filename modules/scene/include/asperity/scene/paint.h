@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,19 @@ struct VirtualPath {
   bool locally_shortest = true;         // false: a piece between two picks could still be shortened
 };
 
+// A texture that a stroke was painted over.
+struct CoveredTexture {
+  std::int32_t index = 0;
+  std::size_t triangles = 0;       // of it, that the stroke covers
+  std::size_t rendered_still = 0;  // of it, that nothing covers
+};
+
 struct PaintResult {
   VirtualPath path;
   HapticWarp warp;
-  std::size_t painted_over = 0;   // triangles that had another texture
-  std::size_t painted_under = 0;  // triangles that still have another one: what was painted is below it
+  std::size_t painted_over = 0;         // triangles that had another texture
+  std::vector<CoveredTexture> covered;  // of painted_over, by rising index
+  std::size_t painted_under = 0;        // triangles that still have another one: what was painted is below it
   Problems problems;
 };
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/areal_texture.h"
 #include "asperity/texture/height_map.h"
 #include "asperity/texture/texture.h"
@@ -18,7 +19,7 @@ struct TextureMapsConfig {
   template <class V>
   void visit(V& v) {
     v.field("pixels_per_mm", pixels_per_mm, "of images made from other models", {0.01, 1e4});
-    v.field("fewest_pixels", fewest_pixels, "a side, whatever the length", {4, 8192});
+    v.field("fewest_pixels", fewest_pixels, "a side, for any length", {4, 8192});
     v.field("seam_mm", seam_mm, "over which a tile's end passes over into its start", {0.0, 1e6});
   }
 };
@@ -33,7 +34,8 @@ struct TextureMaps {
 
 // Images of a texture that is a height field; the image of one that is an image already. An area (an areal texture with
 // standard deviations) is one image from its corner on that does not tile. Throws Error for other models.
-TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config = {});
+TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config = {},
+                              const Observer& observer = {});
 
 // The unit normals of a height map at its pixels, each component c as (c + 1)/2 · 65535: red along x, green against y
 // (up the image), blue outwards, as glTF 2.0 takes a normal map. The slopes are those of the texture as it is rendered.

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
+
 #include "asperity/base/error.h"
 #include "asperity/base/progress.h"
 #include "asperity/json/json.h"
@@ -20,6 +22,10 @@ Scene read_painted_scene(const std::filesystem::path& file, std::optional<double
 // else has. Throws Error naming the file.
 SceneTexture choose_texture(const Scene& scene, const std::filesystem::path& file, int index,
                             const Observer& observer = {});
+
+// A sentence for each texture of the object that the stroke covers, with its file and triangles.
+std::vector<std::string> covered_notes(const PaintResult& result, const SceneObject& object,
+                                       const SceneTexture& texture);
 
 // What one stroke did, as in paint.json, but for the settings.
 Json stroke_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture);

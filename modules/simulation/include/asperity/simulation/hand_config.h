@@ -54,7 +54,7 @@ struct HandConfig {
   std::array<double, 3> tilt_rad{0.30, 0.10, 0.12};  // mean rotation vector of the marker in the world
   double tilt_wander_rad = 0.035;
   double tilt_wander_Hz = 0.5;  // highest frequency of all slow variations of the orientation
-  double follow_normal = 0.7;   // on a cylinder: part of the normal's turn that the probe follows
+  double follow_normal = 0.7;   // on a cylinder: part of the normal's rotation that the probe follows
 
   template <class V>
   void visit(V& v) {
@@ -63,9 +63,9 @@ struct HandConfig {
     v.field("speed_mps", speed_mps, "mean speed, m/s", {1e-3, 1.0});
     v.field("speed_variation", speed_variation, "slow relative variation of the speed", {0.0, 0.3});
     v.field("speed_ramp_s", speed_ramp_s, "time to start and to stop, s", {0.01, 10.0});
-    v.field("rest_s", rest_s, "rest in contact before and after, s", {0.0, 60.0});
-    v.field("pauses", pauses, "rests in contact on the way", {0, 1000});
-    v.field("pause_s", pause_s, "length of such a rest, s", {0.0, 600.0});
+    v.field("rest_s", rest_s, "stationary time in contact before and after the stroke, s", {0.0, 60.0});
+    v.field("pauses", pauses, "stationary pauses in contact during the stroke", {0, 1000});
+    v.field("pause_s", pause_s, "length of such a pause, s", {0.0, 600.0});
     v.field("curve_sagitta_m", curve_sagitta_m, "curved: height of the arc over its chord, m", {0.0, 1.0});
     v.field("strokes", strokes, "back_and_forth: number of strokes", {1, 1000});
     v.field("row_spacing_m", row_spacing_m, "back_and_forth: distance of neighbouring strokes, 0 for one line, m",
@@ -79,15 +79,15 @@ struct HandConfig {
     v.field("ramp_from_N", ramp_from_N, "ramp: force at the start, N", {0.0, 50.0});
     v.field("ramp_to_N", ramp_to_N, "ramp: force at the end, N", {0.0, 50.0});
     v.field("lifts", lifts, "times the probe is lifted off", {0, 1000});
-    v.field("lift_height_m", lift_height_m, "height of a lift, m", {0.0, 0.1});
-    v.field("lift_s", lift_s, "duration of a lift, s", {0.05, 10.0});
-    v.field("normal_mass_kg", normal_mass_kg, "mass felt along the normal, kg", {1e-3, 10.0});
+    v.field("lift_height_m", lift_height_m, "height to which the probe is lifted, m", {0.0, 0.1});
+    v.field("lift_s", lift_s, "duration of lifting, s", {0.05, 10.0});
+    v.field("normal_mass_kg", normal_mass_kg, "effective mass along the normal, kg", {1e-3, 10.0});
     v.field("normal_stiffness_N_per_m", normal_stiffness_N_per_m, "hand's stiffness along the normal, N/m", {0.0, 1e5});
     v.field("normal_damping_N_s_per_m", normal_damping_N_s_per_m, "hand's damping along the normal, N s/m", {0.0, 1e4});
     v.former("normal_damping_Ns_per_m");
     v.field("normal_adaptation_s", normal_adaptation_s, "time in which the hand yields to the height it meets, s",
             {0.01, 100.0});
-    v.field("tangential_mass_kg", tangential_mass_kg, "mass felt along the stroke, kg", {1e-3, 10.0});
+    v.field("tangential_mass_kg", tangential_mass_kg, "effective mass along the stroke, kg", {1e-3, 10.0});
     v.field("tangential_stiffness_N_per_m", tangential_stiffness_N_per_m, "hand's stiffness along the stroke, N/m",
             {1.0, 1e5});
     v.field("tangential_damping_N_s_per_m", tangential_damping_N_s_per_m, "hand's damping along the stroke, N s/m",
@@ -103,7 +103,7 @@ struct HandConfig {
     v.field("tilt_wander_rad", tilt_wander_rad, "slow variation of the orientation about each axis, rad rms",
             {0.0, 0.5});
     v.field("tilt_wander_Hz", tilt_wander_Hz, "its highest frequency, Hz", {0.0, 5.0});
-    v.field("follow_normal", follow_normal, "on a cylinder: part of the normal's turn that the probe follows",
+    v.field("follow_normal", follow_normal, "on a cylinder: part of the normal's rotation that the probe follows",
             {0.0, 1.0});
   }
 };

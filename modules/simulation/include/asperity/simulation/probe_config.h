@@ -85,7 +85,7 @@ struct SimulatedProbeConfig {
             {0.0, 10.0});
     v.field("warming_s", warming_s, "time constant of the warming, s", {0.1, 1e5});
     v.field("clock_drift_ppm", clock_drift_ppm, "error of the probe's crystal, ppm", {-1e4, 1e4});
-    v.field("clock_wander_s", clock_wander_s, "slow error of the time stamps, s", {0.0, 0.1});
+    v.field("clock_wander_s", clock_wander_s, "drift of the time stamps, s", {0.0, 0.1});
     v.field("clock_wander_time_s", clock_wander_time_s, "its correlation time, s", {0.01, 1e4});
     v.field("batch_samples", batch_samples, "samples that arrive together; 1: each by itself", {1, 10000});
     v.field("batch_delay_s", batch_delay_s, "mean wait of a batch, s", {0.0, 0.1});

@@ -32,15 +32,16 @@ struct SimulatedTrackerConfig {
     v.field("latency_s", latency_s, "from exposure to time stamp, s", {0.0, 1.0});
     v.field("clock_jitter_s", clock_jitter_s, "jitter of a time stamp, s rms", {0.0, 0.1});
     v.field("clock_step_s", clock_step_s, "resolution of time stamps, s; 0 for 1 ns", {0.0, 0.1});
-    v.field("reference_distance_m", reference_distance_m, "where the noise figures hold, m", {0.01, 10.0});
+    v.field("reference_distance_m", reference_distance_m, "distance for which the noise values are given, m",
+            {0.01, 10.0});
     v.field("noise_m", noise_m, "position noise right, down and along the ray, m rms", {0.0, 0.1});
     v.field("noise_rad", noise_rad, "rotation noise about right, down and the ray, rad rms", {0.0, 0.5});
-    v.field("slow_share", slow_share, "slow error of each axis, as a share of the frame's noise", {0.0, 100.0});
+    v.field("slow_share", slow_share, "drift of each axis, as a share of the frame's noise", {0.0, 100.0});
     v.field("slow_time_s", slow_time_s, "its correlation time, s", {0.01, 1e4});
     v.field("mount_Hz", mount_Hz, "resonance of the marker on the probe, Hz; 0: rigid", {0.0, 1e4});
     v.field("mount_damping_ratio", mount_damping_ratio, "damping of that resonance, of critical", {0.0, 2.0});
     v.field("mount_length_m", mount_length_m, "length over which the mount bends, m", {1e-3, 1.0});
-    v.field("clock_wander_s", clock_wander_s, "slow error of the time stamps, s", {0.0, 0.1});
+    v.field("clock_wander_s", clock_wander_s, "drift of the time stamps, s", {0.0, 0.1});
     v.field("clock_wander_time_s", clock_wander_time_s, "its correlation time, s", {0.01, 1e4});
     v.field("dropout_chance", dropout_chance, "chance that a run of lost frames begins", {0.0, 1.0});
     v.field("dropout_frames", dropout_frames, "its mean length, frames", {1.0, 1e4});

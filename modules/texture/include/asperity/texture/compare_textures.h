@@ -19,7 +19,8 @@ struct CompareTexturesConfig {
     v.field("low_cycles_per_mm", low_cycles_per_mm, "the band that is compared, from", {1e-6, 1e6});
     v.field("high_cycles_per_mm", high_cycles_per_mm, "and to; less where the heights lie too far apart", {1e-6, 1e6});
     v.field("segment_mm", segment_mm, "of the spectrum's averaging", {1e-6, 1e6});
-    v.field("least_part", least_part, "of the RMS height: a frequency band below it in both is not felt", {0.0, 1.0});
+    v.field("least_part", least_part, "of the RMS height: a frequency band below it in both is below the threshold",
+            {0.0, 1.0});
   }
 };
 

@@ -15,7 +15,8 @@ struct CompareVibrationsConfig {
   void visit(V& v) {
     v.field("low_Hz", low_Hz, "the band that is compared, from", {1.0, 1e5});
     v.field("high_Hz", high_Hz, "and to; less where the rate is low", {1.0, 1e5});
-    v.field("least_part", least_part, "of the RMS acceleration: a band below it in both is not felt", {0.0, 1.0});
+    v.field("least_part", least_part, "of the RMS acceleration: a band below it in both is below the threshold",
+            {0.0, 1.0});
   }
 };
 

@@ -26,7 +26,7 @@ struct FitArealConfig {
   template <class V>
   void visit(V& v) {
     v.field("spacing_mm", spacing_mm,
-            "distance of the grid's points; 0: the data's, at most 0.1 mm if they are no grid", {0.0, 1e6});
+            "distance of the grid's points; 0: the data's, at most 0.1 mm if they are not a grid", {0.0, 1e6});
     v.field("smoothness", smoothness, "weight of curvature against heights, a grid point with one sample each",
             {1e-9, 1e6});
     v.choice("border", border, kBorderNames, "beyond the measured area");

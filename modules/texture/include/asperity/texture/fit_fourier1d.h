@@ -17,7 +17,7 @@ struct FitFourier1dConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("length_mm", length_mm, "sample length L of the texture (seed §6.5)", {1e-3, 1e6});
+    v.field("length_mm", length_mm, "sample length L of the texture", {1e-3, 1e6});
     v.field("shortest_mm", shortest_mm, "taken instead where no gap-free length L is found", {1e-3, 1e6});
     v.field("coefficients", coefficients, "N, harmonics of the fundamental", {1, 65536});
     v.field("seam_mm", seam_mm, "length over which the end is blended into the start; 0: not", {0.0, 1e6});

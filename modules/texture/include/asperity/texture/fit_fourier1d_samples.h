@@ -48,9 +48,9 @@ struct FitFourier1dPathConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("coefficients_per_mm", coefficients_per_mm, "harmonics a millimetre of path: the finest wave's frequency",
-            {1e-3, 1e3});
-    v.field("most_coefficients", most_coefficients, "more are not used, whatever the length", {1, 8192});
+    v.field("coefficients_per_mm", coefficients_per_mm,
+            "harmonics per millimetre of path: frequency of the shortest wavelength", {1e-3, 1e3});
+    v.field("most_coefficients", most_coefficients, "largest number of harmonics, for any length", {1, 8192});
     v.field("seam_mm", seam_mm, "length after the path's end, in which the series returns to its start", {0.0, 1e6});
     v.field("ridge", ridge, "weight of the coefficients' squares against the heights', which keeps gaps flat",
             {0.0, 1.0});

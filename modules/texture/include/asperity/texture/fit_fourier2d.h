@@ -23,8 +23,8 @@ struct FitFourier2dConfig {
   template <class V>
   void visit(V& v) {
     v.choice("kind", kind, kFourier2dFitKindNames,
-             "outer: product of the profiles (seed §6.5); pattern: product of depths; isotropic: random phases; auto: "
-             "pattern for a periodic profile, else isotropic");
+             "outer: product of the profiles; pattern: product of depths; isotropic: random phases; auto: pattern for "
+             "a periodic profile, else isotropic");
     v.field("seed", seed, "isotropic: of the phases", {0.0, 9e15});
     v.field("coefficients", coefficients, "isotropic: harmonics kept of the profile's", {1, 256});
     v.field("resolution", resolution,

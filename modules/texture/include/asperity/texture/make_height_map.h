@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/height_map_model.h"
 #include "asperity/texture/texture.h"
 
@@ -20,6 +21,7 @@ struct HeightMapFit {
 // (1 − w) h(x + L) + w h(x), so that it repeats without a step in height or slope. With range_mm given, the
 // range is laid about the middle of the heights and what lies outside is clipped. Throws Error for a model
 // that is no height field, 9 to 15 bits, or a seam longer than half the tile.
-HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfig& config = {});
+HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfig& config = {},
+                             const Observer& observer = {});
 
 }  // namespace asperity

@@ -15,7 +15,7 @@ struct RefineCornersConfig {
   int most_pixels = 2000;  // of one tag that are compared; more are thinned out
   int most_iterations = 12;
   double largest_move_px = 3.0;   // a corner that would move farther stays where the detector saw it
-  double model_sigma_px = 0.003;  // what the model leaves out, beside the noise: of each coordinate
+  double model_sigma_px = 0.003;  // error of each coordinate that the model leaves out, in addition to the noise
 
   template <class V>
   void visit(V& v) {
@@ -24,8 +24,8 @@ struct RefineCornersConfig {
     v.field("most_iterations", most_iterations, "of the least squares", {2, 100});
     v.field("largest_move_px", largest_move_px, "a corner that would move farther stays where the detector saw it",
             {0.1, 100.0});
-    v.field("model_sigma_px", model_sigma_px, "what the model leaves out, beside the noise: of each coordinate",
-            {0.0, 10.0});
+    v.field("model_sigma_px", model_sigma_px,
+            "error of each coordinate that the model leaves out, in addition to the noise", {0.0, 10.0});
   }
 };
 

@@ -16,32 +16,35 @@ namespace asperity {
 
 struct BodyPoseConfig {
   double corner_sigma_px = 0.1;      // error of a coordinate of a corner that brings no covariance
-  double placement_sigma_m = 0.0;    // of each tag's place on the body, in each direction
-  double unmodelled_px = 0.002;      // what corners are off by beside their noise, before the frame has shown it
+  double placement_sigma_m = 0.0;    // of each tag's position on the body, in each direction
+  double unmodelled_px = 0.002;      // error of corners in addition to their noise, before the frame has shown it
   double print_scale_error = 0.002;  // of the body's size against what is stated, share
-  double bend_share = 0.001;         // sag of what lies in a plane, of its extent
+  double bend_share = 0.001;         // sag of a plane of tags, as a share of its extent
   double focal_error = 0.003;        // of a camera whose calibration states no errors, share; its centre by as much
   double distortion_error = 0.01;    // of k1 of such a camera
   double outlier_sigmas = 6.0;       // a corner farther off than this has no weight
-  double ambiguous_ratio = 3.0;      // of the residuals of the runner-up and the best: below, they are not told apart
+  double ambiguous_ratio =
+      3.0;  // ratio of the residuals of the runner-up and the best, below which they are not distinguished
   int most_iterations = 30;
 
   template <class V>
   void visit(V& v) {
     v.field("corner_sigma_px", corner_sigma_px, "error of a coordinate of a corner that brings no covariance",
             {1e-4, 10.0});
-    v.field("placement_sigma_m", placement_sigma_m, "of each tag's place on the body, in each direction", {0.0, 0.1});
-    v.field("unmodelled_px", unmodelled_px, "what corners are off by beside their noise, before the frame has shown it",
-            {1e-4, 10.0});
+    v.field("placement_sigma_m", placement_sigma_m, "of each tag's position on the body, in each direction",
+            {0.0, 0.1});
+    v.field("unmodelled_px", unmodelled_px,
+            "error of corners in addition to their noise, before the frame has shown it", {1e-4, 10.0});
     v.field("print_scale_error", print_scale_error, "of the body's size against what is stated, share", {0.0, 0.5});
-    v.field("bend_share", bend_share, "sag of what lies in a plane, of its extent", {0.0, 0.5});
+    v.field("bend_share", bend_share, "sag of a plane of tags, as a share of its extent", {0.0, 0.5});
     v.field("focal_error", focal_error,
             "of a camera whose calibration states no errors, share; its centre by as much of the focal length",
             {0.0, 0.5});
     v.field("distortion_error", distortion_error, "of k1 of a camera whose calibration states no errors", {0.0, 1.0});
     v.field("outlier_sigmas", outlier_sigmas, "a corner farther off than this has no weight", {2.0, 100.0});
     v.field("ambiguous_ratio", ambiguous_ratio,
-            "of the residuals of the runner-up and the best: below, they are not told apart", {1.0, 100.0});
+            "ratio of the residuals of the runner-up and the best, below which they are not distinguished",
+            {1.0, 100.0});
     v.field("most_iterations", most_iterations, "of the least squares", {1, 1000});
   }
 };

@@ -43,8 +43,9 @@ struct TrackConfig {
     v.field("largest_reprojection_px", largest_reprojection_px, "a worse pose is none", {0.01, 100.0});
     v.field("longest_gap_s", longest_gap_s, "a pose predicts no longer than this", {0.0, 10.0});
     v.field("fastest_mps", fastest_mps, "a single tag that has jumped farther is not the body's", {0.01, 1000.0});
-    v.field("fastest_radps", fastest_radps, "a single tag that has turned farther is not the body's", {0.1, 10000.0});
-    v.field("find_tag_frame", find_tag_frame, "find out how the tags' frames lie where the declared one does not fit");
+    v.field("fastest_radps", fastest_radps, "a single tag that has rotated farther is not the body's", {0.1, 10000.0});
+    v.field("find_tag_frame", find_tag_frame,
+            "find the rotation of the tags' frames where the declared one does not fit");
     v.field("find_faint", find_faint, "where no tag is seen: look again, in parts of the grey levels");
     v.field("find_covered", find_covered,
             "tags that were not detected, by their picture, where the others say they are");

@@ -40,7 +40,7 @@ struct CausalTipConfig {
     v.field("start_s", start_s, "of rows and poses before the first estimate, s", {0.05, 10.0});
     v.field("mounting_s", mounting_s, "the same where the sensor's rotation is unknown, s", {0.5, 60.0});
     v.field("context_s", context_s, "of rows before the window that its clock is smoothed over, s", {0.05, 10.0});
-    v.field("max_row_gap_s", max_row_gap_s, "a longer hole in the rows begins the estimate anew, s", {0.01, 10.0});
+    v.field("max_row_gap_s", max_row_gap_s, "gap in the rows after which the estimate begins again, s", {0.01, 10.0});
     v.field("ahead_s", ahead_s, "how far a sample looks ahead for its direction of travel, s", {0.001, 1.0});
   }
 };

@@ -48,7 +48,7 @@ struct FusedConfig {
             {0, 10});
     v.field("tip_sigma_m", tip_sigma_m, "of the tip in the marker, each axis, where its calibration states none, m",
             {0, 1});
-    v.field("slow_share", slow_share, "the tracker's slow error as a share of its white noise; 0: none", {0, 100});
+    v.field("slow_share", slow_share, "the tracker's drift as a share of its white noise; 0: none", {0, 100});
     v.field("slow_time_s", slow_time_s, "its time constant, s", {0.01, 1000});
     v.field("process_noise_scale", process_noise_scale, "factor on the process noise; 0: learnt from the recording",
             {0, 1e6});

@@ -26,10 +26,10 @@ struct ThesisTrajectoryConfig {
             {0.0, 10.0});
     v.field("velocity_time_s", velocity_time_s, "time in which the velocity may change by the scanning velocity, s",
             {1e-3, 1e3});
-    v.field("position_fraction", position_fraction, "position noise of a step, as a part of the way done in it",
-            {0.0, 10.0});
+    v.field("position_fraction", position_fraction,
+            "position noise of a step, as a part of the distance travelled in it", {0.0, 10.0});
     v.field("white_acceleration_mps2", white_acceleration_mps2,
-            "above 0: Q of a white acceleration, constant over a step, instead of the seed's diagonal, m/s²",
+            "above 0: Q of a white acceleration, constant over a step, instead of the thesis's diagonal, m/s²",
             {0.0, 1e4});
     v.field("rotation_rate_radps", rotation_rate_radps, "rotation that a step may gain, rad/s", {0.0, 100.0});
   }

@@ -19,7 +19,7 @@ struct ObjectSmootherConfig {
     v.field("longest_gap_s", longest_gap_s, "longest time without a pose of the object that is interpolated, s",
             {0.0, 10.0});
     v.field("slow_share", slow_share,
-            "the tracker's slow error as a share of its white noise, where its calibration states none", {0, 100});
+            "the tracker's drift as a share of its white noise, where its calibration states none", {0, 100});
     v.field("slow_time_s", slow_time_s, "its time constant, s", {0.01, 1000});
     v.field("passes", passes, "filter-smoother passes at most, in which the noise is learnt", {2, 100});
   }

@@ -35,15 +35,15 @@ struct RigLimits {
     v.field("depth", depth, "deviation of the mean depth, share", {0.0, 1.0});
     v.field("pitch_repeatability", pitch_repeatability, "standard deviation over the strokes, share", {0.0, 1.0});
     v.field("depth_repeatability", depth_repeatability, "standard deviation over the strokes, share", {0.0, 1.0});
-    v.field("along_m", along_m, "wander of the arc length beside the grating's, RMS, mean, m", {0.0, 1.0});
+    v.field("along_m", along_m, "deviation of the arc length from the grating's, RMS, mean, m", {0.0, 1.0});
     v.field("correlation", correlation, "of the profile with the traced sine, at least, mean", {0.0, 1.0});
-    v.field("latency_s", latency_s, "of the tracker, beside the calibrated one, s", {0.0, 1.0});
+    v.field("latency_s", latency_s, "of the tracker, from the calibrated one, s", {0.0, 1.0});
     v.field("latency_sigmas", latency_sigmas,
             "the same in standard errors of the calibrated one; both must be exceeded", {0.0, 100.0});
     v.field("latency_repeatability_s", latency_repeatability_s, "standard deviation over the strokes, s", {0.0, 1.0});
-    v.field("gravity", gravity, "deviation at rest, mean, share", {0.0, 1.0});
-    v.field("gravity_angle_rad", gravity_angle_rad, "of the accelerometer's up to the world's at rest, median, rad",
-            {0.0, 3.15});
+    v.field("gravity", gravity, "deviation while stationary, mean, share", {0.0, 1.0});
+    v.field("gravity_angle_rad", gravity_angle_rad,
+            "angle between the accelerometer's up and the world's while stationary, median, rad", {0.0, 3.15});
     v.field("noise", noise, "of the tracker, found over calibrated, median", {1.0, 100.0});
     v.field("outlying", outlying, "poses that disagree with the probe, share, mean", {0.0, 1.0});
     v.field("lost", lost, "lost rows of a stream, share, mean", {0.0, 1.0});

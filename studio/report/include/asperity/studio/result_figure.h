@@ -34,7 +34,7 @@ struct FigureSource {
 struct ResultFigure {
   Figure figure;
   std::vector<FigurePart> drawn;
-  std::vector<std::string> missing;  // what the results do not have, in words, once each
+  std::vector<std::string> missing;  // of the parts that were asked for, what the results do not have; once each
 };
 
 // The figure of results: profile and texture with their bands, spectrum with its 95 % interval and noise floor, path in
