@@ -145,8 +145,8 @@ TEST_F(PaintCommands, ACoveredTextureIsNamed) {
   EXPECT_EQ(first.err, "");
   EXPECT_TRUE(Json::parse(first.out).at("covered").empty());
   const auto into = [&](const std::string& through, const std::string& extra = "--quiet") {
-    return run({"paint", "--into", path("out/scene.json"), "--through", through, "--texture", path("wave.texture.json"),
-                "--json", extra});
+    return run({"paint", "--into", path("out/scene.json"), "--mesh-unit", "mm", "--through", through, "--texture",
+                path("wave.texture.json"), "--json", extra});
   };
   const Outcome across = into("20,2,0;20,18,0");
   ASSERT_EQ(across.code, 0) << across.err;
@@ -177,8 +177,8 @@ TEST_F(PaintCommands, PathsAreThoseThatWereGiven) {
   std::filesystem::current_path(dir_.path());
   const Outcome painted = run({"paint", "plane.obj", "--through", "5,7,0;35,7,0", "--texture", "wave.texture.json",
                                "--mesh-unit", "mm", "-o", "out"});
-  const Outcome into =
-      run({"paint", "--into", "out/scene.json", "--through", "20,2,0;20,18,0", "--texture", "wave.texture.json"});
+  const Outcome into = run({"paint", "--into", "out/scene.json", "--mesh-unit", "mm", "--through", "20,2,0;20,18,0",
+                            "--texture", "wave.texture.json"});
   const Outcome exported = run({"export", "out/", "--to", "obj"});
   const Outcome as_json = run({"export", "out", "--to", "obj", "--json"});
   std::filesystem::current_path("out");

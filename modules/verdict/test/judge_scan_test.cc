@@ -120,7 +120,7 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.object_turned_rad = 0.5236;
        }},
       {"spikes", "600 of 5000", [](ScanEvidence& e) { e.samples_rejected = 600; }},
-      {"no_profile", "no profile: too short", [](ScanEvidence& e) { e.no_profile = "too short"; }},
+      {"no_profile", "the profile is missing: too short", [](ScanEvidence& e) { e.no_profile = "too short"; }},
       {"nothing_touched", "did not touch a surface", [](ScanEvidence& e) { e.contact_s = 0.0; }},
       {"nothing_touched", "only 60 %",
        [](ScanEvidence& e) {
@@ -185,8 +185,8 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"error_unknown", "no error", [](ScanEvidence& e) { e.error_known = false; }},
       {"little_coverage", "12 %", [](ScanEvidence& e) { e.covered = 0.12; }},
       {"contact_unknown", "force never changes", [](ScanEvidence& e) { e.has_force = false; }},
-      {"no_roughness", "no roughness: too short", [](ScanEvidence& e) { e.no_roughness = "too short"; }},
-      {"no_texture", "no texture: too short", [](ScanEvidence& e) { e.no_texture = "too short"; }},
+      {"no_roughness", "roughness is missing: too short", [](ScanEvidence& e) { e.no_roughness = "too short"; }},
+      {"no_texture", "the texture is missing: too short", [](ScanEvidence& e) { e.no_texture = "too short"; }},
   };
   for (const Case& one : cases) {
     ScanEvidence evidence = good();
