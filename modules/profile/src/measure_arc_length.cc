@@ -23,12 +23,12 @@ constexpr double kLowestCutoff_hz = 0.2;
 constexpr double kLengthened = 2e-4;                          // of the length: what noise in the direction may add
 constexpr double kLastingMotion_s = 0.25;                     // shorter is noise that looks like motion
 constexpr double kLongestEnd_s = 0.5, kShortestEnd_s = 0.02;  // over which a rest's outer end is averaged
-constexpr double kCreep_mps = 0.5e-3;    // about as fast as tips slide down the edge of a hole on both benches
-constexpr double kCrept = 2.0;           // standard deviations
-constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
-constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
+constexpr double kCreep_mps = 0.5e-3;  // about as fast as tips slide down the edge of a hole on both benches
+constexpr double kCrept = 3.0;         // standard deviations; at the ends of a recording they are up to twice the usual
+constexpr double kClearMotion = 4.0;   // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;      // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;   // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;       // cosine: two directions within 60° are no reversal
 constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
@@ -235,8 +235,11 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
   leave_out_noise(quick, kBeyondNoise * config.noise_m, moving);
-  const Directions directions = find_directions(path, slow, quick, moving, beside_stops(moving, slow_Hz, path.step_s),
-                                                config.bend_m > 0.0 ? config.bend_m : kUsualBend_m);
+  const double bend_m = config.bend_m > 0.0 ? config.bend_m : kUsualBend_m;
+  // Where bends below the noise are followed, as over a mesh, every distance counts.
+  const std::vector<char> beside =
+      bend_m > 2.0 * config.noise_m ? beside_stops(moving, slow_Hz, path.step_s) : std::vector<char>(moving.size(), 0);
+  const Directions directions = find_directions(path, slow, quick, moving, beside, bend_m);
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {

@@ -184,8 +184,8 @@ TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
   rig.touch();
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 2}, {"answer", 0}}).error, HasSubstr("answered already"));
-  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("no answer"));
-  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 1e15}}).error, HasSubstr("no answer"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("not an answer"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 1e15}}).error, HasSubstr("not an answer"));
   EXPECT_EQ(rig.session()["answers"], 0);
 }
 

@@ -280,7 +280,7 @@ void StudyPage::answer(const Request& request) {
   if (!touched_) throw Advice("nothing was felt in this trial", "Press Space, and touch before you answer.");
   StudySession next = *session_;
   const std::int64_t value = request.integer("answer");
-  if (value < 0 || value > kHighestRating) throw Error(std::to_string(value) + " is no answer to this trial");
+  if (value < 0 || value > kHighestRating) throw Error(std::to_string(value) + " is not an answer to this trial");
   note_row(
       format_answer_row(next, next.give(static_cast<int>(value), response_s(host_now_ns()), since_begin_s()), date()));
   session_ = std::move(next);
