@@ -149,11 +149,13 @@ std::vector<double> times_at(const asperity::ProcessResult& result, std::int64_t
   return out;
 }
 
-// How far apart the places are where the tip truly was, from the first touch of the measured path to its last. Not
-// between the times at which the measured path first passed its ends: noise passes the place of a rest before the tip
-// is there.
+// From where the tip truly was in the first tenth of a second in contact to where it was in the last, by medians: about
+// a period of the hand's tremor. Not between the times at which the measured path first passed its ends: noise passes
+// the place of a rest before the tip is there. Nor from the lowest to the highest true place: tremor at rest, as noise,
+// makes these too far apart.
 double true_length_m(const asperity::ProcessResult& result, std::int64_t origin_ns, const asperity::Truth& truth,
                      const std::vector<double>& t_s) {
+  constexpr double kEnd_s = 0.1;
   const asperity::TipMotion& motion = result.trajectory.motion;
   const std::vector<char>& contact = result.base.contact;
   std::size_t first = 0, last = motion.size();
@@ -161,13 +163,18 @@ double true_length_m(const asperity::ProcessResult& result, std::int64_t origin_
   while (last > first && !contact.empty() && contact[last - 1] == 0) --last;
   if (first == last) return kNan;
   const auto seconds = [&](std::size_t i) { return 1e-9 * static_cast<double>(motion.t_ns[i] - origin_ns); };
-  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (t_s[i] < seconds(first) || t_s[i] > seconds(last - 1)) continue;
-    low_m = std::min(low_m, truth.s_m[i]);
-    high_m = std::max(high_m, truth.s_m[i]);
-  }
-  return high_m > low_m ? high_m - low_m : kNan;
+  const auto median_between = [&](double from_s, double to_s) {
+    std::vector<double> s_m;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (t_s[i] >= from_s && t_s[i] <= to_s) s_m.push_back(truth.s_m[i]);
+    }
+    if (s_m.empty()) return kNan;
+    const auto middle = s_m.begin() + static_cast<std::ptrdiff_t>(s_m.size() / 2);
+    std::nth_element(s_m.begin(), middle, s_m.end());
+    return *middle;
+  };
+  const double begin_s = seconds(first), end_s = seconds(last - 1);
+  return median_between(end_s - kEnd_s, end_s) - median_between(begin_s, begin_s + kEnd_s);
 }
 
 }  // namespace
