@@ -20,15 +20,17 @@ constexpr double kPathRate_hz = 200.0;   // ample for directions that change at 
 constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
 
 constexpr double kLowestCutoff_hz = 0.2;
-constexpr double kLengthened = 2e-4;                          // of the length: what noise in the direction may add
-constexpr double kLastingMotion_s = 0.25;                     // shorter is noise that looks like motion
-constexpr double kLongestEnd_s = 0.5, kShortestEnd_s = 0.02;  // over which a rest's outer end is averaged
+constexpr double kLengthened = 2e-4;                         // of the length: what noise in the direction may add
+constexpr double kLastingMotion_s = 0.25;                    // shorter is noise that looks like motion
+constexpr double kLongestEnd_s = 0.5, kShortestEnd_s = 0.1;  // over which a rest's outer end is averaged
 constexpr double kCreep_mps = 0.5e-3;  // about as fast as tips slide down the edge of a hole on both benches
-constexpr double kCrept = 3.0;         // standard deviations; at the ends of a recording they are up to twice the usual
-constexpr double kClearMotion = 4.0;   // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;      // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;   // standard deviations: further no noise carries the tip
-constexpr double kSameWay = 0.5;       // cosine: two directions within 60° are no reversal
+// Standard deviations: creep below the first is noise (at the ends of a recording it is up to twice the usual), from
+// the second on it is none; in between in proportion, so that the length has no step.
+constexpr double kPerhapsCrept = 2.0, kCrept = 4.0;
+constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
 constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
@@ -164,8 +166,11 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
 double rest_level_m(std::vector<double> s_m, std::size_t outer, double noise_m) {
   const std::size_t third = std::max<std::size_t>(1, s_m.size() / 3);
   const std::span<const double> all(s_m);
-  const bool crept = noise_m > 0.0 && std::abs(median(all.first(third)) - median(all.last(third))) > kCrept * noise_m;
-  return median(crept ? all.first(std::clamp<std::size_t>(outer, 1, s_m.size())) : all);
+  const double whole_m = median(all);
+  if (!(noise_m > 0.0)) return whole_m;
+  const double crept_m = std::abs(median(all.first(third)) - median(all.last(third)));
+  const double share = std::clamp((crept_m / noise_m - kPerhapsCrept) / (kCrept - kPerhapsCrept), 0.0, 1.0);
+  return (1.0 - share) * whole_m + share * median(all.first(std::clamp<std::size_t>(outer, 1, s_m.size())));
 }
 
 // In the rest [begin, start) before a path s has its level, up to the last sample at which it still was there. From
