@@ -262,7 +262,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.noise_rms_m = result.noise.noise_rms_m;
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
-  // Hum at a constant speed is a line too. Over a path that bends the pattern's own lines are of the bend.
+  // Hum at a constant speed is a line too. Where a bent path smears the pattern's line, it does not count either.
   const Periodicity& pattern = result.periodicity;
   out.pattern_found = pattern.periodic && std::isfinite(pattern.pitch_stderr_m) &&
                       line_over_time(profile, profile.texture_m, pattern.pitch_m) < kLineOfThePath;
