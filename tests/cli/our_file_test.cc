@@ -54,7 +54,8 @@ class OurFiles : public FeelCommands {
 TEST_F(OurFiles, OnlyTheirOwnKindIsReplaced) {
   const std::vector<std::pair<std::string, std::string>> kinds{
       {"log", "x.csv"}, {"fit", "x.json"}, {"line", "x.csv"}, {"tile", "x.png"}};
-  for (const auto& [kind, name] : kinds) {
+  for (const auto& one : kinds) {
+    const std::string &kind = one.first, &name = one.second;  // clang 14 captures no structured binding
     SCOPED_TRACE(kind);
     ASSERT_EQ(run(writing(kind, name)).code, 0);
     ASSERT_EQ(run(writing(kind, name)).code, 0) << "its own is replaced";

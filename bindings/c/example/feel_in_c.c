@@ -13,8 +13,8 @@ int main(int argc, char **argv) {
   asperity_touch touch;
   double peak_N = 0.0;
   int step;
-  asperity_status status = argc > 1 ? asperity_scene_read(argv[1], &scene)
-                                    : asperity_scene_from_mesh(corners_m, 4, triangles, 2, &scene);
+  asperity_status status =
+      argc > 1 ? asperity_scene_read(argv[1], &scene) : asperity_scene_from_mesh(corners_m, 4, triangles, 2, &scene);
   if (status == ASPERITY_OK) status = asperity_feel_create(scene, NULL, &feel);
   if (status != ASPERITY_OK) {
     fprintf(stderr, "%s: %s\n", asperity_status_text(status), asperity_last_error());

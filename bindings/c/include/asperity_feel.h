@@ -83,8 +83,8 @@ ASPERITY_FEEL_API asperity_status asperity_scene_set_pose(asperity_scene *scene,
  * each, at least two, in the mesh's frame): onto the triangles within `half_width_m` of it, or for 0 onto those that it
  * touches and their neighbours. `index` from 0 names it: a texture of the same index of this object is replaced. */
 ASPERITY_FEEL_API asperity_status asperity_scene_paint(asperity_scene *scene, size_t object, const char *texture_path,
-                                                       const double *points_m, size_t point_count,
-                                                       double half_width_m, int index);
+                                                       const double *points_m, size_t point_count, double half_width_m,
+                                                       int index);
 /* Puts another texture in the place of the one of that index of the first object; it keeps its own scale. */
 ASPERITY_FEEL_API asperity_status asperity_scene_set_texture(asperity_scene *scene, int index,
                                                              const char *texture_path);
@@ -126,16 +126,16 @@ ASPERITY_FEEL_API asperity_status asperity_feel_update(asperity_feel *feel, cons
 
 /* The tip's motion, the input of a step. */
 typedef struct asperity_motion {
-  size_t size;             /* sizeof(asperity_motion) */
-  double position_m[3];    /* of the tip's centre */
-  double velocity_mps[3];  /* of the tip's centre */
-  double dt_s;             /* since the step before */
+  size_t size;            /* sizeof(asperity_motion) */
+  double position_m[3];   /* of the tip's centre */
+  double velocity_mps[3]; /* of the tip's centre */
+  double dt_s;            /* since the step before */
 } asperity_motion;
 
 /* What a step gives. */
 typedef struct asperity_touch {
-  size_t size;               /* sizeof(asperity_touch) */
-  double force_N[3];         /* on the hand: the sum of the next three */
+  size_t size;       /* sizeof(asperity_touch) */
+  double force_N[3]; /* on the hand: the sum of the next three */
   double contact_N[3];
   double texture_N[3];
   double friction_N[3];
