@@ -50,6 +50,17 @@ Json base_json(const BasePathResult& base) {
   return out;
 }
 
+Json vibrations_json(const std::vector<TimeLine>& lines) {
+  Json out = Json::array();
+  for (const TimeLine& line : lines) {
+    out.push_back({{"frequency_Hz", line.frequency_Hz},
+                   {"resolution_Hz", line.resolution_Hz},
+                   {"rms_m", line.rms_m},
+                   {"could_be_surface", line.could_be_surface}});
+  }
+  return out;
+}
+
 Json roughness_json(const RoughnessResult& r) {
   Json out;
   for (const RoughnessParameter& p : kRoughnessParameters) {
@@ -276,6 +287,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                     {"snr_low", result.noise.snr_low},
                     {"expected_correlation", result.noise.expected_correlation},
                     {"at_most_m", result.noise.at_most_m},
+                    {"vibrations", vibrations_json(result.noise.time_lines)},
                     {"high_pass_cycles_per_mm", ProcessMethods::get(config.method).high_pass_cycles_per_mm(config)}};
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};

@@ -13,6 +13,7 @@
 #include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
+#include "asperity/profile/find_time_lines.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
 #include "asperity/profile/pattern_element_width.h"
@@ -141,6 +142,8 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.noise = std::move(noise.noise);
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
     if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
+    out.noise.time_lines = find_time_lines(out.profile, out.profile.texture_m);
+    add_time_lines(out.profile, out.noise);
     out.measured_texture_m = out.profile.texture_m;
     if (config.profile.merge_passes) merge_recorded_lines(base, out);
     finish_profile(recording, config, out);

@@ -227,6 +227,35 @@ double length_m(const Profile& profile) {
   return profile.size() < 2 ? ScanEvidence::kUnknown : static_cast<double>(profile.size() - 1) * profile.spacing_m;
 }
 
+bool is_of_mains(const TimeLine& line) {
+  constexpr int kMultiples = 6;
+  constexpr double kMains_share = 1e-3;  // that the mains' frequency is off
+  for (const double mains_Hz : {50.0, 60.0}) {
+    for (int n = 1; n <= kMultiples; ++n) {
+      const double at_Hz = n * mains_Hz;
+      if (std::abs(line.frequency_Hz - at_Hz) <= 0.5 * line.resolution_Hz + kMains_share * at_Hz) return true;
+    }
+  }
+  return false;
+}
+
+// The lines are sorted, the strongest first.
+void add_vibrations(const TextureNoise& noise, ScanEvidence& out) {
+  constexpr double kPart = 0.1;  // of the texture's power
+  double power_m2 = 0.0;
+  for (const TimeLine& line : noise.time_lines) {
+    const double line_m2 = line.rms_m * line.rms_m;
+    if (!line.could_be_surface) {
+      if (power_m2 == 0.0) out.vibration_Hz = line.frequency_Hz;
+      power_m2 += line_m2;
+    } else if (!std::isfinite(out.may_be_hum_Hz) && is_of_mains(line) &&
+               line_m2 > kPart * noise.texture_rms_m * noise.texture_rms_m) {
+      out.may_be_hum_Hz = line.frequency_Hz;
+    }
+  }
+  out.vibration_rms_m = std::sqrt(power_m2);
+}
+
 void add_measured(const Recording& recording, const ProcessResult& result, ScanEvidence& out) {
   const TrackerComparison tracker = compare_with_tracker(recording, result.trajectory, result.base);
   const double stated_m = recording.calibration.tracker.sigma_position_m.norm();
@@ -266,6 +295,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   const Periodicity& pattern = result.periodicity;
   out.pattern_found = pattern.periodic && std::isfinite(pattern.pitch_stderr_m) &&
                       line_over_time(profile, profile.texture_m, pattern.pitch_m) < kLineOfThePath;
+  add_vibrations(result.noise, out);
   out.stretch_correlation = result.noise.stretch_correlation;
   out.end_place_sigma_m = result.noise.end_place_sigma_m;
   out.at_most_m = result.noise.at_most_m;

@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double kStep_m = 1e-3;
+constexpr double kAlongStep_m = 1e-3;
 constexpr double kLevel_m = 0.1e-3;      // of the relief over the base, as deep textures are
 constexpr double kIndependent_Hz = 1.0;  // slow errors of the height a second, as find_base_path.h takes them
 
@@ -55,7 +55,7 @@ std::vector<Step> find_steps(const BasePathResult& base, const Ends& ends) {
   std::vector<Step> out;
   std::size_t from = ends.first;
   for (std::size_t i = ends.first; i <= ends.last; ++i) {
-    if (base.contact[i] == 0 || base.path.s_m[i] - base.path.s_m[from] < kStep_m) continue;
+    if (base.contact[i] == 0 || base.path.s_m[i] - base.path.s_m[from] < kAlongStep_m) continue;
     const Eigen::Vector3d way_m = base.path.p_world_m[i] - base.path.p_world_m[from];
     if (way_m.norm() > 0.0) out.push_back({from, i, way_m.normalized()});
     from = i;

@@ -31,6 +31,7 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
+constexpr double kVibration_share = 0.1;   // of the texture's power
 constexpr std::size_t kFewSticks = 5;
 constexpr double kStuck_share = 0.05;
 constexpr double kNoisy_snr = 5.0;                  // a correlation with the surface of about 0.9
@@ -69,9 +70,12 @@ void judge_force(const ScanEvidence& e, Verdicts& out) {
     const std::string taken = clipped_away ? fmt::format(", which reduced its mean by {:.0f} %",
                                                          100.0 * std::abs(1.0 - e.clipped_force_ratio))
                                            : "";
-    out.push_back(make_verdict("clipped", fmt::format("{:.2g} % of the accelerometer's samples are at the end of its "
-                                                      "range{}",
-                                                      100.0 * e.clipped_share, taken)));
+    // What clipping adds to the noise is in the expected correlation: where that is high, little is lost.
+    const bool repaired = e.expected_correlation >= kSeen_correlation;
+    out.push_back(make_verdict(repaired ? "partly_clipped" : "clipped",
+                               fmt::format("{:.2g} % of the accelerometer's samples are at the end of its "
+                                           "range{}",
+                                           100.0 * e.clipped_share, taken)));
   }
 }
 
@@ -255,6 +259,23 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+void judge_vibration(const ScanEvidence& e, Verdicts& out) {
+  const double measured_m2 = e.texture_rms_m * e.texture_rms_m;
+  if (e.vibration_rms_m * e.vibration_rms_m >= kVibration_share * measured_m2) {
+    out.push_back(make_verdict(
+        "vibration", fmt::format("a vibration of {:.4g} Hz that is not of the surface is in the heights: {:.3g} "
+                                 "of the texture's {:.3g} µm RMS; it counts as noise",
+                                 e.vibration_Hz, 1e6 * e.vibration_rms_m, 1e6 * e.texture_rms_m)));
+  }
+  if (std::isfinite(e.may_be_hum_Hz)) {
+    out.push_back(make_verdict(
+        "may_be_hum",
+        fmt::format("the pattern passes the tip {:.4g} times a second, a multiple of the mains' frequency, "
+                    "at so even a speed that it could as well be hum",
+                    e.may_be_hum_Hz)));
+  }
+}
+
 void judge_sticking(const ScanEvidence& e, Verdicts& out) {
   if (e.sticks < kFewSticks || !(e.stuck_share >= kStuck_share)) return;
   out.push_back(make_verdict(
@@ -305,6 +326,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   judge_length(e, out);
   judge_noise(e, out);
   judge_passes(e.passes, out);
+  judge_vibration(e, out);
   judge_sticking(e, out);
   if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "roughness is missing: " + e.no_roughness));
   if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "the texture is missing: " + e.no_texture));

@@ -107,6 +107,16 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.clipped_force_ratio = 0.84;
          e.accel_bias_mps2 = 4.2;  // by the same cause
        }},
+      {"partly_clipped", "60 %",
+       [](ScanEvidence& e) {
+         e.clipped_share = 0.6;
+         e.expected_correlation = 0.91;  // what clipping adds to the noise is in it
+       }},
+      {"clipped", "60 %",
+       [](ScanEvidence& e) {
+         e.clipped_share = 0.6;
+         e.expected_correlation = 0.89;
+       }},
       {"changed_bytes", "17 rows", [](ScanEvidence& e) { e.rows_changed = 17; }},
       {"rows_lost", "2000 of 8000", [](ScanEvidence& e) { e.rows_dropped = 2000; }},
       {"little_overlap", "1.5 s of the 10.0 s", [](ScanEvidence& e) { e.used_s = 1.5; }},
@@ -180,6 +190,13 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.stretch_correlation = 0.735;
          e.end_place_sigma_m = 0.61e-3;
        }},
+      {"vibration",
+       "a vibration of 60.02 Hz that is not of the surface is in the heights: 16 of the texture's 50 µm RMS",
+       [](ScanEvidence& e) {
+         e.vibration_Hz = 60.02;
+         e.vibration_rms_m = 16e-6;
+       }},
+      {"may_be_hum", "50.1 times a second", [](ScanEvidence& e) { e.may_be_hum_Hz = 50.1; }},
       {"length_disagrees", "122.00 mm long, by the tracker's poses alone 80.30 ± 1.24 mm",
        [](ScanEvidence& e) { e.length_m = 0.122; }},
       {"error_unknown", "no error", [](ScanEvidence& e) { e.error_known = false; }},
@@ -230,6 +247,24 @@ TEST(JudgeScan, TheLargerOfNoiseAndMisplacementIsNamed) {
   evidence.expected_correlation = 0.6;
   ASSERT_EQ(judge_scan(evidence).size(), 1U);
   EXPECT_EQ(judge_scan(evidence)[0].code, "below_noise");
+}
+
+// Weaker than a tenth of the texture's power it is in the noise, and that is all.
+TEST(JudgeScan, AWeakVibrationIsNotNamed) {
+  ScanEvidence evidence = good();
+  evidence.vibration_Hz = 60.0;
+  evidence.vibration_rms_m = 15e-6;
+  EXPECT_TRUE(judge_scan(evidence).empty());
+}
+
+// Axes are not judged by a clipped accelerometer, unless little of it is lost.
+TEST(JudgeScan, APartlyClippedAccelerometerShowsWrongAxes) {
+  ScanEvidence evidence = good();
+  evidence.clipped_share = 0.6;
+  evidence.tracker_axes_chi2 = 90.0;
+  EXPECT_EQ(codes(evidence), std::vector<std::string>{"clipped"});
+  evidence.expected_correlation = 0.95;
+  EXPECT_THAT(codes(evidence), testing::ElementsAre("motions_disagree", "partly_clipped"));
 }
 
 TEST(JudgeScan, OfAMotionAloneTheSurfaceIsNotJudged) {

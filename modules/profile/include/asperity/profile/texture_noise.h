@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/time_line.h"
 
 namespace asperity {
 
@@ -104,6 +105,7 @@ struct TextureNoise {
   // noise e, t/√(t² + e²), times `stretch_correlation`. It counts frequency by frequency, so a line that stands out of
   // noise which is as strong in all is seen.
   double expected_correlation = kNan;
+  std::vector<TimeLine> time_lines;  // vibrations of one frequency (find_time_lines.h), in the added noise
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;
 };

@@ -74,6 +74,10 @@ struct ScanEvidence {
   double stretch_correlation = kUnknown;  // of that, what the error of the path's length leaves
   double end_place_sigma_m = kUnknown;    // of a position at the path's ends, by that error
   double at_most_m = kUnknown;            // upper bound of the surface's RMS, 97.5 %
+  // A vibration of one frequency that is not of the surface (find_time_lines.h): the strongest, and the RMS of all.
+  double vibration_Hz = kUnknown;
+  double vibration_rms_m = 0.0;
+  double may_be_hum_Hz = kUnknown;  // a line that could be of the surface, at a multiple of the mains' frequency
   // Passes of the path over one line: that line which contradicts the stated noise the most.
   PassEvidence passes{kUnknown, kUnknown, kUnknown};
   std::size_t sticks = 0;    // times that the tip was held between two slides
