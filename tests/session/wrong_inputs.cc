@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "asperity/simulation/simulate_recording.h"
@@ -92,6 +93,36 @@ void force_is(Recording& r, const std::function<double(double t_s)>& force_N) {
     if (!std::isfinite(r.probe.force_counts[i])) continue;
     const double t_s = static_cast<double>(r.probe.t_ns[i] - r.probe.t_ns.front()) * 1e-9;
     r.probe.force_counts[i] = std::round((force_N(t_s) - c.offset_newton) / c.newton_per_count);
+  }
+}
+
+// The standard deviation of each channel of the accelerometer, counts.
+Eigen::Vector3d spread_of(const Recording& r) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = sum;
+  for (const Eigen::Vector3d& c : r.probe.accel_counts) {
+    sum += c;
+    squares += c.cwiseAbs2();
+  }
+  const auto n = static_cast<double>(r.probe.size());
+  return (squares / n - (sum / n).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+}
+
+void add_hum(Recording& r, double frequency_Hz, const Eigen::Vector3d& amplitude_counts) {
+  for (std::size_t i = 0; i < r.probe.size(); ++i) {
+    const double t_s = 1e-9 * static_cast<double>(r.probe.t_ns[i] - r.probe.t_ns.front());
+    r.probe.accel_counts[i] += std::sin(2.0 * std::numbers::pi * frequency_Hz * t_s) * amplitude_counts;
+  }
+}
+
+// Means over `width_s` about each sample, of as many samples as that is at the mean rate.
+void smooth_counts(Recording& r, double width_s) {
+  const double span_s = 1e-9 * static_cast<double>(r.probe.t_ns.back() - r.probe.t_ns.front());
+  const auto reach = static_cast<std::size_t>(0.5 * width_s * static_cast<double>(r.probe.size()) / span_s);
+  std::vector<Eigen::Vector3d> sums(r.probe.size() + 1, Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < r.probe.size(); ++i) sums[i + 1] = sums[i] + r.probe.accel_counts[i];
+  for (std::size_t i = 0; i < r.probe.size(); ++i) {
+    const std::size_t first = i < reach ? 0 : i - reach, last = std::min(i + reach + 1, r.probe.size());
+    r.probe.accel_counts[i] = (sums[last] - sums[first]) / static_cast<double>(last - first);
   }
 }
 
@@ -193,6 +224,13 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
     std::mt19937_64 random(2);
     std::normal_distribution<double> n;
     each_force(r, [&](const V& f) { return V(V(n(random), n(random), n(random)) * 5.0 + 0.0 * f); });
+  });
+  add("accelerometer", "hum of 60 Hz, as strong as the motion", [](Recording& r) { add_hum(r, 60.0, spread_of(r)); });
+  add("accelerometer", "smoothed over 0.1 s", [](Recording& r) { smooth_counts(r, 0.1); });
+  add("accelerometer", "smoothed over 0.1 s, with hum of 60 Hz", [](Recording& r) {
+    const V amplitude_counts = 2.0 * spread_of(r);
+    smooth_counts(r, 0.1);
+    add_hum(r, 60.0, amplitude_counts);
   });
   add("accelerometer", "gravity alone (motion missing)", [](Recording& r) {
     V mean = V::Zero();

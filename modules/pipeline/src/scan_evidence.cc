@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "asperity/base/units.h"
+#include "asperity/pipeline/accelerometer_floor.h"
 #include "asperity/pipeline/compare_specific_force.h"
 #include "asperity/pipeline/compare_with_tracker.h"
 #include "asperity/pipeline/reference.h"
@@ -104,6 +105,9 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.force_difference_share = force.difference_share;
   out.clipped_force_ratio = force.clipped_ratio;
   out.clipped_share = force.clipped_share;
+  const AccelerometerFloor floor = accelerometer_floor(recording);
+  out.accel_floor_ratio = floor.ratio;
+  out.accel_quiet_from_Hz = floor.from_Hz;
   out.accel_bias_mps2 = metric("accel_bias_mps2");
   out.latency_s = metric("latency_s");
   out.latency_beyond_prior_s = metric("latency_beyond_prior_s");
@@ -258,6 +262,7 @@ void add_vibrations(const TextureNoise& noise, ScanEvidence& out) {
 
 void add_measured(const Recording& recording, const ProcessResult& result, ScanEvidence& out) {
   const TrackerComparison tracker = compare_with_tracker(recording, result.trajectory, result.base);
+  out.mean_speed_mps = result.speed.mean_mps;
   const double stated_m = recording.calibration.tracker.sigma_position_m.norm();
   out.departure_m = tracker.departure_m;
   // Poses that are better than stated are not evidence against a path that keeps to what is stated.

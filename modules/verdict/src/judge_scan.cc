@@ -31,6 +31,7 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
+constexpr double kFiltered_power = 0.04;   // the sensor has a fifth of its stated noise
 constexpr double kVibration_share = 0.1;   // of the texture's power
 constexpr std::size_t kFewSticks = 5;
 constexpr double kStuck_share = 0.05;
@@ -121,6 +122,19 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
                                                                "tracker's",
                                                                100.0 * e.accel_motion_share)));
   }
+}
+
+// A filter or an average has taken the sensor's noise, and the surface's vibrations with it.
+void judge_bandwidth(const ScanEvidence& e, Verdicts& out) {
+  if (!(e.accel_floor_ratio < kFiltered_power)) return;
+  const std::string waves =
+      e.mean_speed_mps > 0.0 ? fmt::format(": waves shorter than {:.2g} mm are missing, and longer ones may be too low",
+                                           1e3 * e.mean_speed_mps / e.accel_quiet_from_Hz)
+                             : "";
+  out.push_back(make_verdict(
+      "accel_filtered", fmt::format("the accelerometer was low-passed: above {:.3g} Hz it has {:.2g} % of the power "
+                                    "of its own noise{}",
+                                    e.accel_quiet_from_Hz, 100.0 * e.accel_floor_ratio, waves)));
 }
 
 void judge_calibration(const ScanEvidence& e, Verdicts& out) {
@@ -337,6 +351,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
 Verdicts judge_scan(const ScanEvidence& evidence) {
   Verdicts out;
   judge_calibration(evidence, out);
+  judge_bandwidth(evidence, out);
   judge_streams(evidence, out);
   judge_object(evidence, out);
   judge_surface(evidence, out);

@@ -34,6 +34,10 @@ constexpr VerdictCode kCodes[] = {
     {"tracker_repeats", kInvalid, "check that the tracker's export has all of its poses"},
     {"clipped", kInvalid, "scan slower or with less force, or use an accelerometer with a wider range"},
     {"partly_clipped", kLimited, "scan slower or with less force, or use an accelerometer with a wider range"},
+    {"accel_filtered", kLimited,
+     "switch off the sensor's low-pass and any averaging, or set them above the surface's vibrations; if there are "
+     "none, "
+     "calibrate the accelerometer again: its stated noise is too large"},
     {"rows_lost", kInvalid, "check the connection and the file"},
     {"changed_bytes", kLimited,
      "save the rows that are whole with `asperity recover`; if it was you who changed the file, remove checksums.txt"},

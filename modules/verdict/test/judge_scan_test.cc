@@ -117,6 +117,12 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.clipped_share = 0.6;
          e.expected_correlation = 0.89;
        }},
+      {"accel_filtered", "above 512 Hz it has 0.3 % of the power of its own noise: waves shorter than 0.049 mm",
+       [](ScanEvidence& e) {
+         e.accel_floor_ratio = 0.003;
+         e.accel_quiet_from_Hz = 512.0;
+         e.mean_speed_mps = 0.025;
+       }},
       {"changed_bytes", "17 rows", [](ScanEvidence& e) { e.rows_changed = 17; }},
       {"rows_lost", "2000 of 8000", [](ScanEvidence& e) { e.rows_dropped = 2000; }},
       {"little_overlap", "1.5 s of the 10.0 s", [](ScanEvidence& e) { e.used_s = 1.5; }},

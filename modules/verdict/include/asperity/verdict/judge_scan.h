@@ -20,6 +20,10 @@ struct ScanEvidence {
   double force_ratio = kUnknown;             // measured over predicted, over windows without clipped samples
   double force_difference_share = kUnknown;  // |measured − predicted| over predicted, as vectors, over these
   double clipped_force_ratio = kUnknown;     // as force_ratio, over windows with clipped samples
+  // Of the accelerometer's highest octave over its stated white noise, powers; and the frequency from which on it has
+  // less than a quarter of it (accelerometer_floor.h).
+  double accel_floor_ratio = kUnknown;
+  double accel_quiet_from_Hz = kUnknown;
   double accel_bias_mps2 = kUnknown;
   double latency_s = kUnknown;
   double latency_beyond_prior_s = kUnknown;  // by which the tracker is later than calibrated, from the data alone
@@ -60,6 +64,7 @@ struct ScanEvidence {
   double covered = kUnknown;      // part of the profile that has heights
   double min_coverage = 0.5;
   bool error_known = true;     // the method gives the standard deviation of its heights
+  double mean_speed_mps = kUnknown;
   double length_m = kUnknown;  // of the path in contact
   double length_stderr_m = kUnknown;
   double tracker_length_m = kUnknown;  // by the poses alone, over the same times
