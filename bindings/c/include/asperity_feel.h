@@ -46,7 +46,8 @@ typedef enum asperity_status {
   ASPERITY_BAD_ARGUMENT = 1, /* NULL, an index or number out of range, an unknown name */
   ASPERITY_BAD_FILE = 2,     /* cannot be read, or does not hold what it should; or the scene cannot be rendered */
   ASPERITY_NO_MEMORY = 3,
-  ASPERITY_INTERNAL = 4 /* a fault of this library */
+  ASPERITY_INTERNAL = 4,               /* a fault of this library */
+  ASPERITY_STATUS_LARGEST = 0x7fffffff /* none: later versions may have others */
 } asperity_status;
 
 /* The status in words; never NULL. */

@@ -52,6 +52,8 @@ const char* asperity_status_text(asperity_status status) {
       return "not enough memory";
     case ASPERITY_INTERNAL:
       return "a fault of the library";
+    case ASPERITY_STATUS_LARGEST:
+      break;
   }
   return "unknown status";
 }
