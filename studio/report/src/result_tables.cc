@@ -29,7 +29,8 @@ Json parse_result(std::string_view text, const std::string& name) {
   if (format == nullptr || *format != "asperity-result") throw Error(name + ": is not a result of asperity process");
   const Json* version = out.find("version");
   if (version == nullptr || *version != 1) {
-    throw Error(name + ": is of version " + (version == nullptr ? "null" : shown(*version)) + "; 1 is read");
+    throw Error(name + ": has the version " + (version == nullptr ? "null" : shown(*version)) +
+                "; this program reads version 1");
   }
   return out;
 }
@@ -57,7 +58,7 @@ Profile parse_profile(std::string_view text, const std::string& name) {
     }
   }
   out.spacing_m = out.size() < 2 ? 0.0 : (out.s_m.back() - out.s_m.front()) / static_cast<double>(out.size() - 1);
-  if (out.size() > 1 && !(out.spacing_m > 0.0)) throw Error(name + ": s_m does not rise");
+  if (out.size() > 1 && !(out.spacing_m > 0.0)) throw Error(name + ": s_m does not increase");
   return out;
 }
 
