@@ -58,7 +58,7 @@ Profile parse_profile(std::string_view text, const std::string& name) {
     }
   }
   out.spacing_m = out.size() < 2 ? 0.0 : (out.s_m.back() - out.s_m.front()) / static_cast<double>(out.size() - 1);
-  if (out.size() > 1 && !(out.spacing_m > 0.0)) throw Error(name + ": s_m does not increase");
+  if (out.size() > 1 && !(out.spacing_m > 0.0)) throw Error(name + ": s_m does not rise");
   return out;
 }
 

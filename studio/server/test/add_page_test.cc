@@ -93,10 +93,10 @@ TEST_F(AddPageTest, WhatIsThereIsNeverReplaced) {
 TEST_F(AddPageTest, PathsThatLeadElsewhereAreRefusedAndNothingIsMade) {
   const std::string long_part(256, 'a');
   const std::vector<std::pair<std::string, const char*>> cases{
-      {"../a", "no path inside"},     {"/etc/a", "no path inside"},  {"a/../../b", "no path inside"},
-      {"a\\b", "no path inside"},     {".hidden", "hidden"},         {"a/.asperity-studio.json", "hidden"},
-      {"a\nb", "cannot be shown"},    {"a\xff", "cannot be shown"},  {"", "no path inside"},
-      {long_part, "longer than 255"}, {"1/2/3/4/5/6/7/8/9", "deep"}, {"a\x1b[31m", "cannot be shown"},
+      {"../a", "not a path inside"},  {"/etc/a", "not a path inside"}, {"a/../../b", "not a path inside"},
+      {"a\\b", "not a path inside"},  {".hidden", "hidden"},           {"a/.asperity-studio.json", "hidden"},
+      {"a\nb", "cannot be shown"},    {"a\xff", "cannot be shown"},    {"", "not a path inside"},
+      {long_part, "longer than 255"}, {"1/2/3/4/5/6/7/8/9", "deep"},   {"a\x1b[31m", "cannot be shown"},
   };
   for (const auto& [path, why] : cases) {
     EXPECT_THROW(
