@@ -63,9 +63,10 @@ void BlockWriter::add_bytes(std::string_view name, std::string_view type, const 
     sizes.push_back(values);
     product = values;
   }
-  if (product != values) throw Error("block array '" + std::string(name) + "': its shape does not fit its values");
+  if (product != values)
+    throw Error("block array '" + std::string(name) + "': its shape does not match the number of its values");
   for (const Json& array : arrays_) {
-    if (array["name"] == name) throw Error("block array '" + std::string(name) + "' is there twice");
+    if (array["name"] == name) throw Error("block array '" + std::string(name) + "' is given twice");
   }
   Json described;
   described["name"] = name;

@@ -20,9 +20,9 @@ class SamplesAlong {
     const auto below = [](const Sample& sample, double s_m) { return sample.s_m < s_m; };
     const auto first = std::lower_bound(samples_.begin(), samples_.end(), from_m, below);
     const auto last = std::lower_bound(first, samples_.end(), to_m, below);
-    if (first == last) return "no samples there: too fast, or lost";
+    if (first == last) return "no samples there: the motion was too fast, or samples were lost";
     if (std::any_of(first, last, [](const Sample& sample) { return !sample.touching; })) return "the tip did not touch";
-    return "the tip rested: the heights before and after it do not join";
+    return "the tip was stationary: the heights before and after it do not join";
   }
 
  private:

@@ -91,13 +91,13 @@ std::vector<fs::path> find_results(const fs::path& folder) {
   constexpr int kDeepest = 3;
   const std::string name = printable(folder.string(), 200);
   if (!fs::is_directory(folder)) {
-    throw Error(name + (fs::exists(folder) ? ": is no folder" : ": no such folder"));
+    throw Error(name + (fs::exists(folder) ? ": is not a folder" : ": no such folder"));
   }
   std::vector<fs::path> out;
   find_in(folder, kDeepest, out);
-  if (out.empty()) throw Error(name + ": holds no result of asperity process (no result.json)");
+  if (out.empty()) throw Error(name + ": contains no result of asperity process (no result.json)");
   if (out.size() > kMaxReportItems) {
-    throw Error(name + ": holds more than " + std::to_string(kMaxReportItems) + " results, too many for one report");
+    throw Error(name + ": contains more than " + std::to_string(kMaxReportItems) + " results, too many for one report");
   }
   std::sort(out.begin(), out.end());
   return out;

@@ -134,7 +134,7 @@ DrawnResult read_source(const FigureSource& source, const ResultFigureConfig& co
   if (fs::is_regular_file(source.path / "area.json")) return read_area(source);
   if (fs::is_regular_file(source.path / "result.json")) return read_measured(source);
   throw Error(called(source.path) +
-              ": holds no result (neither result.json of process, register and merge nor area.json of area)");
+              ": contains no result (neither result.json of process, register and merge nor area.json of area)");
 }
 
 struct FigureBuilder {

@@ -29,7 +29,8 @@ Json parse_result(std::string_view text, const std::string& name) {
   if (format == nullptr || *format != "asperity-result") throw Error(name + ": is not a result of asperity process");
   const Json* version = out.find("version");
   if (version == nullptr || *version != 1) {
-    throw Error(name + ": is of version " + (version == nullptr ? "null" : shown(*version)) + "; 1 is read");
+    throw Error(name + ": has the version " + (version == nullptr ? "null" : shown(*version)) +
+                "; this program reads version 1");
   }
   return out;
 }

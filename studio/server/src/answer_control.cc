@@ -35,11 +35,12 @@ Json answer_control(const Json& request, WebServer& server, const std::filesyste
     out["address"] = server.address();
     return out;
   }
-  if (what != "close-session") throw Error("the studio does not know this request; is it of another version?");
+  if (what != "close-session")
+    throw Error("the studio does not know this request; check that both have the same version");
   const Json* number = request.find("number");
   if (number == nullptr || !number->is_number_unsigned()) throw Error("a session's number is missing");
   if (!server.close_session(number->get<std::uint64_t>())) {
-    throw Error("there is no session " + number->dump() + "; --sessions lists them");
+    throw Error("unknown session " + number->dump() + "; --sessions lists them");
   }
   return out;
 }
@@ -54,7 +55,7 @@ void bind_sessions(Calls& calls, WebServer& server) {
   calls.add("studio.close_session", [&server](const Request& request) {
     const std::int64_t number = request.integer("number");
     if (number < 1 || !server.close_session(static_cast<std::uint64_t>(number))) {
-      throw Advice("there is no session " + std::to_string(number), "It may have ended: open the list again.");
+      throw Advice("unknown session " + std::to_string(number), "It may have ended; open the list again.");
     }
     request.done();
   });

@@ -11,7 +11,7 @@ namespace {
 std::string words(const Json& value) { return printable(value.dump_repaired(), 60); }
 
 [[noreturn]] void refuse_argument(const std::string& call, std::string_view name, const Json* value, const char* what) {
-  const std::string given = value ? words(*value) + " is not " + what : std::string("is missing; it is ") + what;
+  const std::string given = value ? words(*value) + " is not " + what : std::string("is missing; it must be ") + what;
   throw Error(call + ": " + std::string(name) + ": " + given);
 }
 
@@ -73,14 +73,14 @@ void Request::refuse(const std::exception& error) const {
 
 void Calls::add(std::string name, Handler handler) {
   const auto [at, fresh] = handlers_.try_emplace(std::move(name), std::move(handler));
-  if (!fresh) throw Error("the call '" + at->first + "' is there twice");
+  if (!fresh) throw Error("the call '" + at->first + "' is given twice");
 }
 
 void Calls::dispatch(const Request& request) const noexcept {
   try {
     try {
       const auto found = handlers_.find(request.name());
-      if (found == handlers_.end()) throw Error("there is no call '" + request.name() + "'");
+      if (found == handlers_.end()) throw Error("unknown call '" + request.name() + "'");
       found->second(request);
     } catch (const std::bad_alloc&) {
       request.refuse(Advice("not enough memory", "Close other programs, or open something smaller."));

@@ -15,7 +15,7 @@ namespace asperity::studio {
 namespace {
 
 void check_topic(std::string_view topic) {
-  if (!is_topic_name(topic)) throw Error("'" + printable(topic) + "' is no name of a topic");
+  if (!is_topic_name(topic)) throw Error("'" + printable(topic) + "' is not the name of a topic");
 }
 
 OutFrame shared_frame(std::string bytes, bool is_text) {

@@ -55,12 +55,12 @@ void CommonPage::bind_document(Calls& calls) {
   });
   calls.add("document.undo", [this](const Request& request) {
     if (const auto edit = shared_.document.next_undo()) shared_.check_edit(request.client(), *edit);
-    if (!shared_.document.undo()) throw Error("there is nothing to undo");
+    if (!shared_.document.undo()) throw Error("nothing can be undone");
     request.done();
   });
   calls.add("document.redo", [this](const Request& request) {
     if (const auto edit = shared_.document.next_redo()) shared_.check_edit(request.client(), *edit);
-    if (!shared_.document.redo()) throw Error("there is nothing to redo");
+    if (!shared_.document.redo()) throw Error("nothing can be redone");
     request.done();
   });
 }
@@ -90,9 +90,8 @@ void CommonPage::bind_project(Calls& calls) {
 void CommonPage::bind_lease(Calls& calls) {
   calls.add("lease.acquire", [this](const Request& request) {
     if (!shared_.may_command_forces) {
-      throw Advice(
-          "forces are not commanded from here",
-          "The studio was started for other machines to look on: start it with --remote-force to change that.");
+      throw Advice("this studio does not command forces",
+                   "Other machines can reach this studio. Start it with --remote-force to allow forces.");
     }
     const std::int64_t now_ns = host_now_ns();
     Json out;

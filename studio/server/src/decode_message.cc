@@ -25,21 +25,21 @@ Call decode_call(std::string_view frame) {
   limits.values = kMaxMessageValues;
   limits.keys = kMaxMessageKeys;
   Json message = parse_json(frame, "a message", limits);
-  if (!message.is_object()) throw Error("a message is no object: '" + printable(frame) + "'");
+  if (!message.is_object()) throw Error("a message is not an object: '" + printable(frame) + "'");
   Call call;
   for (const auto& [key, value] : message.items()) {
     if (key == "id") {
       if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kLargestId) {
-        throw Error("a message's id is no whole number from 0 to 2^53: '" + printable(value.dump()) + "'");
+        throw Error("a message's id is not a whole number from 0 to 2^53: '" + printable(value.dump()) + "'");
       }
       call.id = value.get<std::uint64_t>();
     } else if (key == "call") {
       if (!value.is_string() || !is_topic_name(value.text())) {
-        throw Error("a message's call is no name of a-z, 0-9, _ and dots: '" + printable(value.dump()) + "'");
+        throw Error("a message's call is not a name of a-z, 0-9, _ and dots: '" + printable(value.dump()) + "'");
       }
       call.name = value.get<std::string>();
     } else if (key == "args") {
-      if (!value.is_object()) throw Error("a message's args are no object: '" + printable(value.dump()) + "'");
+      if (!value.is_object()) throw Error("a message's args are not an object: '" + printable(value.dump()) + "'");
       call.args = value;
     } else {
       throw Error("a message has the unknown key '" + printable(key) + "'");
@@ -55,7 +55,7 @@ Pointer decode_pointer(std::string_view frame) {
   if (frame.size() != kPointerBytes) {
     throw Error(fmt::format("a binary message of {} bytes; a pointer has {}", frame.size(), kPointerBytes));
   }
-  if (!frame.starts_with("ASP1")) throw Error("a binary message is no pointer of this version");
+  if (!frame.starts_with("ASP1")) throw Error("a binary message is not a pointer of this version");
   Pointer pointer;
   std::memcpy(&pointer.sequence, frame.data() + 4, sizeof pointer.sequence);
   std::memcpy(pointer.p_world_m.data(), frame.data() + 8, sizeof pointer.p_world_m);

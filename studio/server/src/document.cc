@@ -20,13 +20,14 @@ constexpr std::size_t kDeepestValue = 80;
 
 JsonPointer pointer_of(std::string_view path) {
   const auto parts = static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
-  if (path.size() > kLongestPath || parts > kMostPathParts) throw Error("'" + printable(path) + "' is too long a path");
+  if (path.size() > kLongestPath || parts > kMostPathParts)
+    throw Error("'" + printable(path) + "' is too long for a path");
   return parse_json_pointer(path);
 }
 
 std::string section_name(std::string_view path) {
   const JsonPointer pointer = pointer_of(path);
-  if (pointer.empty()) throw Error("the document is changed section by section, not as a whole");
+  if (pointer.empty()) throw Error("the document can be changed only section by section");
   return pointer.front();
 }
 
@@ -40,7 +41,7 @@ Json value_at(const Json& tree, const JsonPointer& pointer) {
 void put_value(Json& tree, const JsonPointer& pointer, const Json& value, std::string_view path) {
   const Json* parent = find_at(tree, JsonSteps(pointer).first(pointer.size() - 1));
   if (parent == nullptr || !parent->is_object() || !set_at(tree, pointer, value)) {
-    throw Error("'" + printable(path) + "' is no place in the document");
+    throw Error("'" + printable(path) + "' is not a position in the document");
   }
 }
 
@@ -55,7 +56,7 @@ void widen_to_list(const Json& tree, std::string& path, Json& after) {
     Json changed = *list;
     const bool nothing_to_take = after.is_null() && find_at(changed, inner) == nullptr;
     if (nothing_to_take || !set_at(changed, inner, after)) {
-      throw Error("'" + printable(path) + "' is no place in the document");
+      throw Error("'" + printable(path) + "' is not a position in the document");
     }
     after = std::move(changed);
     path = format_json_pointer(steps.first(upper));
@@ -101,7 +102,7 @@ JsonLimits file_limits() {
 Document::Document(std::filesystem::path file) : file_(std::move(file)) {}
 
 void Document::add_section(const std::string& name, Json first, Validator validator, Updater updater) {
-  if (first_.contains(name)) throw Error("the document's section '" + name + "' is there twice");
+  if (first_.contains(name)) throw Error("the document's section '" + name + "' is given twice");
   value_[name] = first;
   first_[name] = std::move(first);
   validators_[name] = std::move(validator);
@@ -120,14 +121,14 @@ void Document::load() {
     std::filesystem::path aside = file_;
     aside += ".unreadable";
     std::filesystem::rename(file_, aside, error);
-    problems_.push_back(printable(file_.filename().string()) + " could not be read and was put aside as " +
+    problems_.push_back(printable(file_.filename().string()) + " could not be read and was renamed to " +
                         printable(aside.filename().string()) + ": " + printable(fault.what(), 300));
   }
 }
 
 void Document::read(std::string_view text) {
   const Json file = parse_json(text, file_.filename().string(), file_limits());
-  if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("is of another version");
+  if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("has another version");
   bool whole = true;
   for (const auto& [name, first] : first_) {
     const Json* found = file.at("document").find(name);
@@ -139,7 +140,7 @@ void Document::read(std::string_view text) {
       value_[name] = std::move(section);
     } catch (const std::exception& fault) {
       whole = false;
-      problems_.push_back("the page '" + name + "' begins anew: " + printable(fault.what(), 300));
+      problems_.push_back("the page '" + name + "' starts with its defaults: " + printable(fault.what(), 300));
     }
   }
   if (whole) read_steps(file);
@@ -154,7 +155,7 @@ void Document::read_steps(const Json& file) {
   } catch (const std::exception&) {
     undo_.clear();
     redo_.clear();
-    problems_.push_back("what could be undone before cannot be any more");
+    problems_.push_back("earlier steps cannot be undone any more");
   }
 }
 
@@ -164,13 +165,13 @@ Json Document::changed_section(const Edit& edit) const {
   Json holder = Json::object();
   holder[name] = value_.at(name);
   if (edit.path == "/" + name) {
-    if (edit.after.is_null()) throw Error("a section of the document cannot be taken out");
+    if (edit.after.is_null()) throw Error("a section of the document cannot be removed");
     holder[name] = edit.after;
   } else {
     put_value(holder, pointer_of(edit.path), edit.after, edit.path);
   }
   if (holder[name].dump_repaired().size() > kLargestSectionBytes) {
-    throw Advice("the page '" + name + "' would hold too much", "Take something out of it before you add more.");
+    throw Advice("the page '" + name + "' would contain too much", "Remove something from it before you add more.");
   }
   validators_.at(name)(holder[name]);
   return std::move(holder[name]);

@@ -29,14 +29,14 @@ bool takes_gzip(const HttpRequest& request) {
 }
 
 HttpAnswer wrong_method(std::string_view allowed) {
-  HttpAnswer answer = refusal(405, "this is not to be done here");
+  HttpAnswer answer = refusal(405, "this method is not allowed here");
   answer.headers.emplace_back("Allow", allowed);
   return answer;
 }
 
 HttpAnswer answer_asset(const HttpRequest& request, std::string_view path, const Site& site) {
   const auto asset = site.asset(path == "/" ? "/index.html" : path);
-  if (!asset) return refusal(404, "there is nothing here");
+  if (!asset) return refusal(404, "nothing exists at this address");
   const bool unpacked = asset->compressed && !takes_gzip(request);
   HttpAnswer answer;
   answer.headers = safety_headers(site.hosts.socket_origin(*request.host));
@@ -56,10 +56,10 @@ std::optional<std::string> token_of(const std::string& body) {
 
 HttpAnswer answer_session(const HttpRequest& request, const Site& site) {
   if (!request.origin || !site.hosts.is_own_origin(*request.origin, *request.host)) {
-    return refusal(403, "this page is of another origin");
+    return refusal(403, "this page has another origin");
   }
   const auto token = token_of(request.body);
-  if (!token) return refusal(400, "this is no {\"token\":…}");
+  if (!token) return refusal(400, "this is not {\"token\":…}");
   const auto [kind, cookie] =
       site.sessions->admit(*token, {request.from, request.agent, session_cookie(request, site)});
   if (kind == Sessions::Answer::kWrongToken) {
@@ -107,7 +107,7 @@ HttpAnswer refusal(unsigned status, std::string_view words) {
 
 HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
   if (!request.host || !site.hosts.contains(*request.host)) {
-    return refusal(403, "this server is not of that name; open the address that it printed");
+    return refusal(403, "this server does not have that name; open the address that it printed");
   }
   const std::string_view path = std::string_view(request.target).substr(0, request.target.find('?'));
   if (path == "/session") {

@@ -44,7 +44,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (error == http::error::body_limit) return write(refusal(413, "this request is too long"), false);
     if (error.category() == make_error_code(http::error::bad_method).category() &&
         error != http::error::end_of_stream) {
-      return write(refusal(400, "this is no request"), false);
+      return write(refusal(400, "this is not a request"), false);
     }
     if (error) return;
     const auto& message = parser_->get();

@@ -245,7 +245,7 @@ void Jobs::check_room() const {
   std::size_t waiting = 0;
   for (auto& [name, lane] : impl_->lanes) waiting += lane.waiting();
   if (waiting >= kMostWaiting)
-    throw Advice("too much is waiting to be worked on", "Wait until some of it is done, or cancel it below.");
+    throw Advice("too many jobs are waiting", "Wait until some are done, or cancel them below.");
 }
 
 void Jobs::bind(Calls& calls) {

@@ -29,7 +29,7 @@ std::string unescaped(std::string_view step) {
     }
     ++i;
     if (i == step.size() || (step[i] != '0' && step[i] != '1')) {
-      throw Error("'" + printable(step) + "' is no place in the document");
+      throw Error("'" + printable(step) + "' is not a position in the document");
     }
     out += step[i] == '0' ? '~' : '/';
   }
@@ -39,7 +39,7 @@ std::string unescaped(std::string_view step) {
 }  // namespace
 
 JsonPointer parse_json_pointer(std::string_view path) {
-  if (!path.empty() && path.front() != '/') throw Error("'" + printable(path) + "' is no place in the document");
+  if (!path.empty() && path.front() != '/') throw Error("'" + printable(path) + "' is not a position in the document");
   JsonPointer out;
   while (!path.empty()) {
     path.remove_prefix(1);

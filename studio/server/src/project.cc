@@ -70,7 +70,7 @@ void list_folder(const fs::path& folder, const std::string& prefix, int depth, s
 Project::Project(fs::path folder) {
   std::error_code error;
   folder_ = fs::canonical(folder, error);
-  if (error || !fs::is_directory(folder_, error)) throw Error(printable(folder.string(), 200) + ": is no folder");
+  if (error || !fs::is_directory(folder_, error)) throw Error(printable(folder.string(), 200) + ": is not a folder");
 }
 
 std::vector<Entry> Project::entries() const {
@@ -86,15 +86,15 @@ fs::path Project::existing(const std::string& name) const {
   const fs::path path = writable(name);
   if (!fs::exists(path, error))
     throw Advice(printable(name, 200) + ": is not in the project's folder",
-                 "Choose something that is there, or copy it into the folder.");
+                 "Choose a file of the folder, or copy this one into it.");
   return path;
 }
 
 fs::path Project::writable(const std::string& name) const {
   const std::optional<fs::path> path = is_utf8(name) ? inner_file(folder_, name) : std::nullopt;
   if (!path || *path == folder_) {
-    throw Advice(printable(name, 200) + ": is no name inside the project's folder",
-                 "Give a name such as \"first\", without .. and without a / at its beginning.");
+    throw Advice(printable(name, 200) + ": is not a name inside the project's folder",
+                 "Give a name such as \"first\", without .. and without / at the beginning.");
   }
   for (const fs::path& part : path->lexically_relative(folder_)) {
     if (part.string().starts_with('.'))
@@ -102,8 +102,8 @@ fs::path Project::writable(const std::string& name) const {
   }
   std::error_code error;
   if (!fs::is_directory(path->parent_path(), error)) {
-    throw Advice(printable(name, 200) + ": the folder that it would lie in does not exist",
-                 "Give a name without /, or make that folder first.");
+    throw Advice(printable(name, 200) + ": its folder does not exist",
+                 "Give a name without /, or create that folder first.");
   }
   return *path;
 }

@@ -102,7 +102,7 @@ RunningStudio studio_of(const std::string& socket, const Json& answer) {
 Json ask_or_throw(const RunningStudio& studio, const Json& request) {
   const Descriptor folder(open_control_folder(false));
   auto answer = folder.get() < 0 ? std::nullopt : ask(folder.get(), studio.socket, request);
-  if (!answer) throw Error("the studio at " + printable(studio.address, 200) + " does not answer; has it ended?");
+  if (!answer) throw Error("the studio at " + printable(studio.address, 200) + " does not answer; it may have ended");
   if (const Json* error = answer->find("error")) throw Error(printable(error->text(), 200));
   return std::move(*answer);
 }

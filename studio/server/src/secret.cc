@@ -13,7 +13,7 @@ std::string random_secret() {
   std::array<std::uint8_t, 16> bytes{};
   // Up to 256 bytes come whole or not at all.
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    throw Error("the system gives no random numbers");
+    throw Error("the system provides no random numbers");
   }
   constexpr char kDigits[] = "0123456789abcdef";
   std::string out;

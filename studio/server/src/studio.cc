@@ -102,12 +102,12 @@ class Studio {
       control_.emplace([this](const Json& request) {
         Json answer = answer_control(request, *server_, project_.folder());
         if (answer.contains("address") && !answer.contains("sessions")) {
-          notice("the token was renewed: the address printed before and all sessions have ended");
+          notice("the token was renewed; the earlier address and all sessions are no longer valid");
         }
         return answer;
       });
     } catch (const Error& error) {
-      notice("--sessions and --new-token do not reach this studio: " + std::string(error.what()));
+      notice("--sessions and --new-token cannot reach this studio: " + std::string(error.what()));
     }
   }
 
@@ -142,7 +142,7 @@ class Studio {
       } catch (const Advice& advice) {
         note(advice.what(), advice.hint());
       } catch (const std::exception& error) {
-        note(error.what(), "The studio goes on; try it again.");
+        note(error.what(), "The studio continues. Try again.");
       }
     } catch (...) {
       // Not even the note could be sent.
@@ -164,7 +164,7 @@ class Studio {
   void cannot_save(const std::string& fault) {
     if (std::exchange(save_failed_, true)) return;
     note("The studio's state cannot be saved: " + fault,
-         "Free some space, or see whether the folder may be written. Nothing is lost as long as the studio runs.");
+         "Free some space, or check that the folder is writable. Nothing is lost as long as the studio runs.");
   }
 
   StudioConfig config_;

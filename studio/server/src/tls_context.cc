@@ -71,7 +71,7 @@ class PemFile {
       size += static_cast<std::size_t>(got);
     }
     if (size > kMostPemBytes)
-      refuse_file(path_, "is longer than 256 KiB, which no PEM file of a certificate or key is");
+      refuse_file(path_, "is longer than 256 KiB, too long for a PEM file of a certificate or key");
     out.resize(size);
     return out;
   }
@@ -111,7 +111,7 @@ Certificate use_certificates(SSL_CTX* context, const fs::path& path) {
       refuse_file(path, "certificate " + std::to_string(more + 1) + " in it is damaged: " + last_reason());
     }
     if (more >= kMostCertificates)
-      refuse_file(path, "more than 10 certificates; one and those of its authorities are enough");
+      refuse_file(path, "more than 10 certificates; it needs only its own and those of its authorities");
     if (SSL_CTX_add1_chain_cert(context, next.get()) != 1) refuse_file(path, "not usable: " + last_reason());
   }
   ERR_clear_error();
@@ -128,7 +128,7 @@ void use_key(SSL_CTX* context, const fs::path& path, const fs::path& certificate
   OPENSSL_cleanse(text.data(), text.size());
   if (!key) {
     const std::string why = last_reason();
-    refuse_file(path, asked ? "this key has a password; write it without one: openssl pkey -in … -out …"
+    refuse_file(path, asked ? "this key has a password; remove it: openssl pkey -in … -out …"
                             : "no private key in PEM form (-----BEGIN PRIVATE KEY-----): " + why);
   }
   if (SSL_CTX_use_PrivateKey(context, key.get()) != 1 || SSL_CTX_check_private_key(context) != 1) {
@@ -155,7 +155,7 @@ std::vector<std::string> warnings_of(X509* certificate, const fs::path& path, co
   if (X509_cmp_time(X509_get0_notAfter(certificate), &now) < 0) {
     out.push_back(name + ": this certificate has expired; browsers will warn");
   } else if (X509_cmp_time(X509_get0_notBefore(certificate), &now) > 0) {
-    out.push_back(name + ": this certificate is not valid yet; is this machine's clock right?");
+    out.push_back(name + ": this certificate is not valid yet; check this machine's clock");
   }
   if (!covers(certificate, host)) {
     out.push_back(name + ": this certificate is not for '" + printable(host) + "'; browsers will warn");

@@ -13,9 +13,9 @@ std::filesystem::path write_target(const Project& project, const Request& reques
   std::error_code error;
   if (!replace && std::filesystem::exists(std::filesystem::symlink_status(target, error))) {
     const std::size_t ending = std::min(name.find('.', 1), name.size());
-    throw Advice(printable(name, 200) + ": is there already",
+    throw Advice(printable(name, 200) + ": exists already",
                  "Choose another name, such as " + project.free_name(name.substr(0, ending), name.substr(ending)) +
-                     ", or say that it is to be replaced.");
+                     ", or choose to replace it.");
   }
   return target;
 }
@@ -23,7 +23,7 @@ std::filesystem::path write_target(const Project& project, const Request& reques
 void put_in_place(OutputFolder& folder, const std::string& name, Hub& hub) {
   for (const std::filesystem::path& kept : folder.commit()) {
     const std::string file = printable(name, 200) + "/" + printable(kept.string(), 200);
-    hub.broadcast("note", Json{{"message", file + " was put there meanwhile; it was kept"}, {"hint", ""}});
+    hub.broadcast("note", Json{{"message", file + " was added there in the meantime; it was kept"}, {"hint", ""}});
   }
 }
 

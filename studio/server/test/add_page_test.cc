@@ -93,10 +93,10 @@ TEST_F(AddPageTest, WhatIsThereIsNeverReplaced) {
 TEST_F(AddPageTest, PathsThatLeadElsewhereAreRefusedAndNothingIsMade) {
   const std::string long_part(256, 'a');
   const std::vector<std::pair<std::string, const char*>> cases{
-      {"../a", "no path inside"},     {"/etc/a", "no path inside"},  {"a/../../b", "no path inside"},
-      {"a\\b", "no path inside"},     {".hidden", "hidden"},         {"a/.asperity-studio.json", "hidden"},
-      {"a\nb", "cannot be shown"},    {"a\xff", "cannot be shown"},  {"", "no path inside"},
-      {long_part, "longer than 255"}, {"1/2/3/4/5/6/7/8/9", "deep"}, {"a\x1b[31m", "cannot be shown"},
+      {"../a", "not a path inside"},  {"/etc/a", "not a path inside"}, {"a/../../b", "not a path inside"},
+      {"a\\b", "not a path inside"},  {".hidden", "hidden"},           {"a/.asperity-studio.json", "hidden"},
+      {"a\nb", "cannot be shown"},    {"a\xff", "cannot be shown"},    {"", "not a path inside"},
+      {long_part, "longer than 255"}, {"1/2/3/4/5/6/7/8/9", "deep"},   {"a\x1b[31m", "cannot be shown"},
   };
   for (const auto& [path, why] : cases) {
     EXPECT_THROW(
@@ -142,7 +142,7 @@ TEST_F(AddPageTest, BytesThatAreNotTheNextAreRefused) {
               HasSubstr("base64"));
   EXPECT_EQ(send(addition, 0, 0, "123").error, "") << "a refusal changes nothing";
   EXPECT_THAT(send(addition, 0, 0, "123").error, HasSubstr("not the next"));
-  EXPECT_THAT(finish(addition).error, HasSubstr("has not arrived whole"));
+  EXPECT_THAT(finish(addition).error, HasSubstr("has not arrived completely"));
   EXPECT_TRUE(wait([&] { return names_in(folder.path()).empty(); }));
 }
 
@@ -252,7 +252,7 @@ TEST_F(ImportPageTest, WritesTheRecordingAndRefusesAWrongUnitWithItsName) {
   const Recording recording = read_recording(folder / "wave");
   EXPECT_EQ(recording.tracker.size(), 1000U);
   EXPECT_EQ(recording.probe.size(), 5000U);
-  EXPECT_THAT(call("import.write", arguments_).error, HasSubstr("is there already"));
+  EXPECT_THAT(call("import.write", arguments_).error, HasSubstr("exists already"));
 
   Json wrong = arguments(Json{{"mapping.imu.columns", "a=#2-#4[m/s2], g=#5-#7[deg/s], t=#1[ms]"}});
   const FakeHub::Answer look = call("import.look", wrong);

@@ -161,13 +161,12 @@ TEST_F(AlignAreaTest, MakesAndWritesAsTheCommandLine) {
   // Only what was shown last is written, and never over something else.
   EXPECT_THAT(call("align.area_write", Json{{"name", "other"}, {"number", number.get<int>() + 1}}).hint,
               HasSubstr("Make the area again"));
-  EXPECT_THAT(call("align.area_write", Json{{"name", "area"}, {"number", number}}).error,
-              HasSubstr("is there already"));
+  EXPECT_THAT(call("align.area_write", Json{{"name", "area"}, {"number", number}}).error, HasSubstr("exists already"));
   for (const char* itself : {"registered", "./registered", "area/../registered"})
     EXPECT_NE(call("align.area_write", Json{{"name", itself}, {"number", number}, {"replace", true}}).error, "");
   write_listing(folder / "registered");  // as if it were of another area
   EXPECT_THAT(call("align.area_write", Json{{"name", "registered"}, {"number", number}, {"replace", true}}).error,
-              HasSubstr("the scans of the area are in there"));
+              HasSubstr("contains the scans of the area"));
   EXPECT_TRUE(fs::exists(folder / "registered" / "scan3" / "path.csv"));
 }
 

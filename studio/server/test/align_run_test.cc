@@ -64,7 +64,7 @@ TEST_F(AlignRunTest, ReachesTheTruthAndTellsEveryIteration) {
 
 TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   const Json before = bench_.document.section("align");
-  EXPECT_THAT(bench_.call("align.accept", args_of({{"solution", "best"}})).hint, HasSubstr("Run one"));
+  EXPECT_THAT(bench_.call("align.accept", args_of({{"solution", "best"}})).hint, HasSubstr("Register first"));
   const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
   const Json ran = bench_.document.section("align");
   bench_.call("align.accept", args_of({{"solution", "best"}}));

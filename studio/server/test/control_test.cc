@@ -101,7 +101,7 @@ TEST_F(Control, RenewsAndCloses) {
   RawClient window = browser();
   ASSERT_TRUE(answers(window));
   const RunningStudio studio = running_studios().at(0);
-  EXPECT_THAT([&] { close_session(studio, 9); }, ThrowsMessage<Error>(HasSubstr("no session 9")));
+  EXPECT_THAT([&] { close_session(studio, 9); }, ThrowsMessage<Error>(HasSubstr("unknown session 9")));
   close_session(studio, 1);
   EXPECT_EQ(window.next_frame()->close_code(), 4401);
   const std::string before = server_->address();

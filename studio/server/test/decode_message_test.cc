@@ -55,23 +55,23 @@ TEST(DecodeMessage, RefusesOtherText) {
   EXPECT_THAT(refused(R"({"id":7,"call":"x","args":{"a":"\ud800"}})"), HasSubstr("not JSON"));
   EXPECT_THAT(refused(R"({"id":7,"call":"x","args":{"a":NaN}})"), HasSubstr("not JSON"));
   EXPECT_THAT(refused(R"({"id":7,"call":"x","args":{"a":1e999}})"), HasSubstr("number overflow"));
-  EXPECT_THAT(refused("[]"), HasSubstr("no object"));
-  EXPECT_THAT(refused("7"), HasSubstr("no object"));
+  EXPECT_THAT(refused("[]"), HasSubstr("not an object"));
+  EXPECT_THAT(refused("7"), HasSubstr("not an object"));
   EXPECT_THAT(refused(R"({"id":7})"), HasSubstr("no 'call'"));
   EXPECT_THAT(refused(R"({"call":"x"})"), HasSubstr("no 'id'"));
   EXPECT_THAT(refused(R"({"id":7,"call":"x","arg":{}})"), HasSubstr("unknown key 'arg'"));
-  EXPECT_THAT(refused(R"({"id":7,"call":"x","args":[]})"), HasSubstr("args are no object"));
+  EXPECT_THAT(refused(R"({"id":7,"call":"x","args":[]})"), HasSubstr("args are not an object"));
   EXPECT_THAT(refused(R"({"id":7,"id":7,"call":"x"})"), HasSubstr("a message:1:9: key 'id' appears twice"));
   EXPECT_THAT(refused(R"({"id":7,"call":"x","args":{"a":[{"b":1,"b":2}]}})"),
               HasSubstr("key 'args.a[0].b' appears twice"));
   for (const char* id : {"-1", "7.0", "9007199254740993", "1e3", "\"7\"", "null", "18446744073709551616"}) {
-    EXPECT_THAT(refused(std::string(R"({"call":"x","id":)") + id + "}"), HasSubstr("no whole number")) << id;
+    EXPECT_THAT(refused(std::string(R"({"call":"x","id":)") + id + "}"), HasSubstr("not a whole number")) << id;
   }
   for (const std::string& name :
        {std::string(), std::string("Scan"), std::string("a b"), std::string("a/b"), std::string(65, 'x')}) {
-    EXPECT_THAT(refused(R"({"id":7,"call":")" + name + "\"}"), HasSubstr("no name")) << name;
+    EXPECT_THAT(refused(R"({"id":7,"call":")" + name + "\"}"), HasSubstr("not a name")) << name;
   }
-  EXPECT_THAT(refused(R"({"id":7,"call":7})"), HasSubstr("no name"));
+  EXPECT_THAT(refused(R"({"id":7,"call":7})"), HasSubstr("not a name"));
 }
 
 TEST(DecodeMessage, BoundsLengthDepthAndKeys) {
@@ -124,7 +124,7 @@ TEST(DecodeMessage, TakesPointersAlone) {
   EXPECT_THAT(refused("", false), HasSubstr("0 bytes"));
   EXPECT_THAT(refused(good.substr(1), false), HasSubstr("31 bytes"));
   EXPECT_THAT(refused(good + "x", false), HasSubstr("33 bytes"));
-  EXPECT_THAT(refused("ASP2" + good.substr(4), false), HasSubstr("no pointer of this version"));
+  EXPECT_THAT(refused("ASP2" + good.substr(4), false), HasSubstr("not a pointer of this version"));
   EXPECT_THAT(refused(pointer(1, 0, std::numeric_limits<double>::quiet_NaN(), 0), false), HasSubstr("not finite"));
   EXPECT_THAT(refused(pointer(1, 0, 0, std::numeric_limits<double>::infinity()), false), HasSubstr("not finite"));
 }

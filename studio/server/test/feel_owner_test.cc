@@ -27,7 +27,7 @@ TEST(FeelPage, WhoMayNotCommandForcesIsToldSo) {
   rig.choose_height_maps();
   rig.document.edit("/feel/device", "haply", "device");
   const FakeHub::Answer answer = rig.call("feel.start");
-  EXPECT_THAT(answer.error, HasSubstr("not commanded from here"));
+  EXPECT_THAT(answer.error, HasSubstr("does not command forces"));
   EXPECT_THAT(answer.hint, HasSubstr("--remote-force"));
   // The modelled hand is shown; nothing is let through.
   rig.document.edit("/feel/device", "sim", "device");

@@ -256,7 +256,7 @@ TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
   rig.own_force();
   EXPECT_EQ(rig.call("feel.start").error, "");
   EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
-  EXPECT_EQ(rig.status()["last_run"]["end"], "the way was at its end");
+  EXPECT_EQ(rig.status()["last_run"]["end"], "end of the path");
   EXPECT_GT(rig.status()["last_run"]["figures"]["force"]["peak_N"].get<double>(), 0.1);
 }
 

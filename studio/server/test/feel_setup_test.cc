@@ -63,7 +63,7 @@ TEST(FeelChoices, RefuseWhatIsNone) {
   EXPECT_THAT(refusal(with("height_maps", Json(std::vector<std::string>(300, "a")))), HasSubstr("height_maps"));
   Json both = with("scene", "a.obj");
   both["height_maps"] = {"a.png"};
-  EXPECT_THAT(refusal(both), HasSubstr("exclude"));
+  EXPECT_THAT(refusal(both), HasSubstr("either a scene or height maps"));
   EXPECT_NE(refusal(Json(3)), "");
 }
 

@@ -91,7 +91,7 @@ TEST_F(PaintPageTest, WritesWhatIsReadAsAScene) {
   EXPECT_EQ(scene.objects.front().textures.front().texture.name, "wave");
   EXPECT_EQ(scene.objects.front().unit_m, 0.001);
   EXPECT_TRUE(std::filesystem::exists(folder / "painted/paint.json"));
-  EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("there already"));
+  EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("exists already"));
   EXPECT_EQ(call("paint.write", Json{{"name", "painted"}, {"replace", true}}).error, "");
   const FakeHub::Answer exported =
       call("paint.export", Json{{"source", "painted/scene.json"}, {"format", "gltf"}, {"name", "painted-gltf"}});

@@ -104,7 +104,7 @@ TEST_F(ProcessMergeTest, MergesAndWritesAsTheCommandLine) {
     EXPECT_TRUE(content(folder / "merged" / file) == content(folder / "by_hand" / file)) << file;
   }
   // What is there is only replaced if it is said; and never something else than results.
-  EXPECT_THAT(call("process.write_merge", Json{{"name", "merged"}}).error, HasSubstr("is there already"));
+  EXPECT_THAT(call("process.write_merge", Json{{"name", "merged"}}).error, HasSubstr("exists already"));
   EXPECT_EQ(call("process.write_merge", Json{{"name", "merged"}, {"replace", true}}).error, "");
   EXPECT_NE(call("process.write_merge", Json{{"name", "a"}, {"replace", true}}).error, "");
   EXPECT_TRUE(fs::exists(folder / "a" / "recording.json"));

@@ -150,14 +150,14 @@ TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
   bench.ask("scan.discard");
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
   ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
-  EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no finished scan"));
+  EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no scan is finished"));
 }
 
 TEST(ScanPage, BringsBackWhatWasDiscarded) {
   ScanBench bench;
   choose_replay(bench);
   bench.ask("scan.open");
-  EXPECT_THAT(bench.call("scan.restore").error, HasSubstr("nothing was discarded"));
+  EXPECT_THAT(bench.call("scan.restore").error, HasSubstr("no discarded segment"));
   scan_once(bench);
   const ReadBlock before(bench.refined());
   const auto live_before = ReadBlock(bench.call("scan.profile").block).array<double>("s_m");

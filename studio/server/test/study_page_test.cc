@@ -97,7 +97,7 @@ TEST_F(StudyPageTest, TheForceIsTheFeelPagesOwn) {
   ASSERT_EQ(rig.ask("study.begin").error, "");
   rig.touch();
   EXPECT_TRUE(rig.ask("feel.status").result["visited"].get<bool>());
-  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("being felt already"));
+  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("running already"));
   // Nobody changes what is under the hand; anybody lowers the force, and stops.
   Edit edit;
   edit.path = "/feel/range_mm";
@@ -157,7 +157,7 @@ TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "running"; }));
   // Nobody holds the lease.
   EXPECT_FALSE(rig.session()["ready"].get<bool>());
-  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was touched"));
   rig.beating = true;
   EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
   // It lapses: the clock of the response stands.
@@ -173,7 +173,7 @@ TEST_F(StudyPageTest, IsNotTouchedWhereNoForceIsCommanded) {
   rig.set_up("pairs", 2);
   rig.shared.may_command_forces = false;
   ASSERT_EQ(rig.ask("study.begin").error, "");
-  EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("not commanded from here"));
+  EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("does not command forces"));
 }
 
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
@@ -181,7 +181,7 @@ TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   rig.set_up("pairs", 2);
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("no trial is open"));
   ASSERT_EQ(rig.ask("study.begin").error, "");
-  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was touched"));
   rig.touch();
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 2}, {"answer", 0}}).error, HasSubstr("answered already"));
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("not an answer"));
@@ -218,7 +218,7 @@ TEST_F(StudyPageTest, TakesTheLastAnswerBackAlsoAtTheEnd) {
   EXPECT_EQ(rig.status()["phase"], "finished");
   EXPECT_EQ(rig.ask("study.take_back").error, "");
   EXPECT_EQ(rig.status()["phase"], "running");
-  EXPECT_THAT(rig.ask("study.take_back").error, HasSubstr("no answer can be taken back"));
+  EXPECT_THAT(rig.ask("study.take_back").error, HasSubstr("no answer can be withdrawn"));
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   rig.touch();
   EXPECT_EQ(rig.answer(2).error, "");
@@ -252,12 +252,12 @@ TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
 TEST_F(StudyPageTest, KeepsStudiesInFiles) {
   StudyRig rig(folder.path());
   rig.set_up("rating", 4);
-  EXPECT_THAT(rig.ask("study.write", {{"name", "a.json"}}).error, HasSubstr("no name of a study"));
+  EXPECT_THAT(rig.ask("study.write", {{"name", "a.json"}}).error, HasSubstr("not the name of a study"));
   EXPECT_EQ(rig.ask("study.write", {{"name", "a.study.json"}}).error, "");
-  EXPECT_THAT(rig.ask("study.write", {{"name", "a.study.json"}}).error, HasSubstr("there already"));
+  EXPECT_THAT(rig.ask("study.write", {{"name", "a.study.json"}}).error, HasSubstr("exists already"));
   EXPECT_EQ(rig.ask("study.write", {{"name", "a.study.json"}, {"replace", true}}).error, "");
   EXPECT_EQ(rig.ask("study.read", {{"name", "a.study.json"}}).result, rig.document.section("study")["study"]);
-  EXPECT_THAT(rig.ask("study.read", {{"name", "../a.study.json"}}).error, HasSubstr("no name inside"));
+  EXPECT_THAT(rig.ask("study.read", {{"name", "../a.study.json"}}).error, HasSubstr("not a name inside"));
   EXPECT_THROW(rig.document.edit("/study/participant", "a b", "participant"), Error);
   EXPECT_THROW(rig.document.edit("/study/study/presentation/device", "hammer", "device"), Error);
   EXPECT_THROW(rig.document.edit("/study/study/stimuli", Json::array({" a.png"}), "textures"), Error);

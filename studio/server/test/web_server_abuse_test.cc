@@ -306,8 +306,8 @@ TEST_F(WebServerAbuse, BoundsTopics) {
     ASSERT_THAT(subscribe(R"({"topic":"t)" + std::to_string(i) + "\"}"), HasSubstr("result"));
   EXPECT_THAT(subscribe(R"({"topic":"t64"})"), HasSubstr("64 topics at most"));
   EXPECT_THAT(subscribe(R"({"topic":"t63"})"), HasSubstr("result")) << "has it already";
-  EXPECT_THAT(subscribe(R"({"topic":"T"})"), HasSubstr("no name of a topic"));
-  EXPECT_THAT(subscribe(R"({"topic":""})"), HasSubstr("no name of a topic"));
+  EXPECT_THAT(subscribe(R"({"topic":"T"})"), HasSubstr("not the name of a topic"));
+  EXPECT_THAT(subscribe(R"({"topic":""})"), HasSubstr("not the name of a topic"));
   EXPECT_THAT(subscribe(R"({"topic":7})"), HasSubstr("needs a topic"));
   EXPECT_THAT(subscribe(R"({"topic":"t","x":1})"), HasSubstr("needs a topic"));
 }

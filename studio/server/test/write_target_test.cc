@@ -26,7 +26,7 @@ TEST(WriteTarget, AFileThatCameMeanwhileIsKeptAndEveryWindowIsTold) {
   EXPECT_TRUE(std::filesystem::exists(target / "theirs.txt"));
   const std::vector<Json> notes = hub.events("note");
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes[0].at("message"), "result/theirs.txt was put there meanwhile; it was kept");
+  EXPECT_EQ(notes[0].at("message"), "result/theirs.txt was added there in the meantime; it was kept");
 }
 
 }  // namespace

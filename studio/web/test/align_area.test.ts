@@ -62,7 +62,7 @@ describe("the area", () => {
     };
     const figures = new Map(areaFigures(result).map((figure) => [figure.label, figure]));
     expect(figures.get("Height, RMS")!.value).toBeCloseTo(20, 9);
-    expect(figures.get("Of it with heights")!.value).toBeNull();
+    expect(figures.get("Share with heights")!.value).toBeNull();
     expect(figures.get("Agreement")).toMatchObject({ unit: "%", error: 10 });
     expect(figures.get("Stretch")!.value).toBe("0.980 to 1.020");
     expect(figures.get("Scans")!.value).toBe(2);

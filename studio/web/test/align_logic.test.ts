@@ -121,11 +121,11 @@ describe("calls that follow a drag", () => {
 describe("the verdict in few words", () => {
   const found = { converged: true, trustworthy: true, ambiguous: false, rms_m: 2.7e-5, points: 388, outliers: 2, runner_up: null };
 
-  it("says what it rests on", () => expect(verdictWords(found).replaceAll("\u202f", " ")).toBe("386 of 388 points lie on the mesh, to 0.027 mm RMS."));
+  it("says what it rests on", () => expect(verdictWords(found).replaceAll("\u202f", " ")).toBe("386 of 388 points are on the mesh, within 0.027 mm RMS."));
 
   it("says what to do where it is invalid", () => {
     expect(verdictWords({ ...found, trustworthy: false, ambiguous: true })).toContain("by pairs");
-    expect(verdictWords({ ...found, trustworthy: false, converged: false })).toContain("no end");
+    expect(verdictWords({ ...found, trustworthy: false, converged: false })).toContain("did not converge");
     expect(verdictWords({ ...found, trustworthy: false, outliers: 300 })).toContain("unit");
   });
 });

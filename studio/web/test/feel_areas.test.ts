@@ -40,7 +40,7 @@ describe("textured areas", () => {
 describe("the watchdog's word", () => {
   const state = (limited: string[], starts_inside = false) => ({ limited, starts_inside }) as FeelState;
   it("names the gravest cause", () => {
-    expect(watchdog(state([]))).toEqual({ lamp: "good", word: "all well" });
+    expect(watchdog(state([]))).toEqual({ lamp: "good", word: "no fault" });
     expect(watchdog(state(["soft-start", "stale"]))).toEqual({ lamp: "bad", word: causeWords("stale") });
     expect(watchdog(state(["not-permitted"])).lamp).toBe("warn");
     expect(watchdog(state(["force-limit"])).word).toBe("at the force limit");

@@ -25,9 +25,9 @@ describe("warp", () => {
     expect(warpPart(Math.sqrt(kWarpLimit))).toBeCloseTo(0.5);
   });
   it("is said in words", () => {
-    expect(warpWords(1)).toBe("true to length");
+    expect(warpWords(1)).toBe("length preserved");
     expect(warpWords(1.2)).toBe("1.200 times stretched");
-    expect(warpWords(-1.5)).toBe("1.500 times squeezed");
+    expect(warpWords(-1.5)).toBe("1.500 times compressed");
     expect(warpWords(NaN)).toBe("folded flat");
   });
 });

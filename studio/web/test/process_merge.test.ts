@@ -22,7 +22,7 @@ describe("the strokes of a merge", () => {
     expect(strokeChoices(entries, ["a", "lost"])).toEqual([
       { name: "a", kind: "recording" },
       { name: "out", kind: "result" },
-      { name: "lost", kind: "not there" },
+      { name: "lost", kind: "missing" },
     ]);
   });
 

@@ -7,7 +7,7 @@ const plain = (text: string) => text.replaceAll("\u202f", " ");
 
 describe("figures as text", () => {
   it("have few digits and their unit", () => {
-    expect(plain(figureWords(figure("Path travelled", 80.078, "mm")))).toBe("80.08 mm");
+    expect(plain(figureWords(figure("Path length", 80.078, "mm")))).toBe("80.08 mm");
     expect(plain(figureWords(figure("Pitch", 2.5019, "mm", { error: 0.00114 })))).toBe("2.5019 ± 0.0011 mm");
     expect(figureWords(figure("Periodic", "yes"))).toBe("yes");
   });
@@ -21,9 +21,9 @@ describe("figures as text", () => {
 
 describe("figures of several results", () => {
   it("stand side by side, and a missing one is a dash", () => {
-    const rows = comparedRows([[figure("Path travelled", 10, "mm")], [figure("Path travelled", 20, "mm"), figure("Duration", 3, "s")]]);
+    const rows = comparedRows([[figure("Path length", 10, "mm")], [figure("Path length", 20, "mm"), figure("Duration", 3, "s")]]);
     expect(rows.map((row) => [row.label, ...row.values.map(plain)])).toEqual([
-      ["Path travelled", "10.00 mm", "20.00 mm"],
+      ["Path length", "10.00 mm", "20.00 mm"],
       ["Duration", "–", "3.000 s"],
     ]);
   });

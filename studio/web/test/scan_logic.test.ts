@@ -125,15 +125,15 @@ const done = { name: "segment_1", duration_s: 1, open: false };
 describe("the recorder's state", () => {
   it("is said in words", () => {
     expect(recordWords(null).word).toBe("…");
-    expect(recordWords({ open: false }).word).toBe("Nothing open");
+    expect(recordWords({ open: false }).word).toBe("No source open");
     expect(recordWords({ open: false, opening: true }).word).toBe("Opening …");
     expect(recordWords(open({})).word).toBe("Ready");
-    expect(recordWords(open({ automatic: true })).word).toBe("Waits for touch");
+    expect(recordWords(open({ automatic: true })).word).toBe("Waiting for contact");
     expect(recordWords(open({ storing: true, segment: "rim" })).word).toBe("Recording");
     expect(recordWords(open({ storing: true, failure: "full" })).lamp).toBe("bad");
     expect(contactWords(recorder({ touching: true })).word).toBe("in contact");
     expect(contactWords(recorder({ contact_ready: false })).lamp).toBe("busy");
-    expect(sensorWords({ state: "running" } as never, true).word).toBe("waits for Start");
+    expect(sensorWords({ state: "running" } as never, true).word).toBe("waiting for Start");
     expect(sensorWords({ state: "lost" } as never, true).lamp).toBe("bad");
   });
 

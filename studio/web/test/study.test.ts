@@ -94,7 +94,7 @@ describe("a session", () => {
 
   it("says what is to be done", () => {
     expect(adviceOf(session(), false)).toBe("Press Space to touch.");
-    expect(adviceOf(session({ touching: true }), true)).toMatch(/being laid/);
+    expect(adviceOf(session({ touching: true }), true)).toMatch(/until the textures are ready/);
     expect(adviceOf(session({ touching: true }), false)).toMatch(/does not have the force/);
     expect(adviceOf(session({ touching: true, ready: true, touched: true }), false)).toBe("Touch both, then answer with 1 or 2.");
     expect(adviceOf(session({ touched: true, method: "rating" }), false)).toMatch(/again, or answer with 1 to 7/);

@@ -77,7 +77,7 @@ class AddPage : public Page {
 
   void begin(const Request& request) {
     if (open_.size() >= kMostAdditions) {
-      throw Advice("files are being added already", "Wait until they are there, or cancel that.");
+      throw Advice("files are being added already", "Wait until they are added, or cancel.");
     }
     const auto addition = std::make_shared<Addition>(shared_.project, announced_files(request.args()));
     open_.emplace(++last_, Open{request.client(), addition});
@@ -96,12 +96,12 @@ class AddPage : public Page {
   // The disk is written to in a lane of its own; its order is that of the calls.
   void take_bytes(const Request& request) {
     const auto file = request.integer("file"), at = request.integer("at");
-    if (file < 0 || at < 0) throw Error("add.bytes: file and at are not negative");
+    if (file < 0 || at < 0) throw Error("add.bytes: file and at must not be negative");
     answer_by_job(
         shared_.jobs, request, "", "",
         [addition = find(request)->second.addition, file, at, text = request.text("base64")](const Observer&) {
           const auto bytes = bytes_of_base64(text);
-          if (!bytes) throw Error("add.bytes: base64: is not that");
+          if (!bytes) throw Error("add.bytes: base64: is not valid base64");
           addition->append(static_cast<std::size_t>(file), static_cast<std::uint64_t>(at), *bytes);
           return Json::object();
         });

@@ -25,18 +25,19 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestPart_bytes = 255;
 
 Advice refused(const std::string& path, const std::string& why) {
-  return {printable(path, 200) + ": " + why, "Nothing was added. Rename it, or leave it out."};
+  return {printable(path, 200) + ": " + why, "Nothing was added. Rename the file, or leave it out."};
 }
 
 void check_path(const std::string& path) {
   if (!is_utf8(path) || printable(path, path.size() + 1) != path) throw refused(path, "this name cannot be shown");
-  if (!inner_path(path) || path.find('\\') != std::string::npos) throw refused(path, "this is no path inside a folder");
+  if (!inner_path(path) || path.find('\\') != std::string::npos)
+    throw refused(path, "this is not a path inside a folder");
   std::size_t parts = 0;
   for (const fs::path& part : fs::path(path)) {
     const std::string name = part.string();
     if (name.empty() || name.front() == '.') throw refused(path, "hidden files and folders are not added");
     if (name.size() > kLongestPart_bytes) throw refused(path, "this name is longer than 255 bytes");
-    if (++parts > kDeepestAdded) throw refused(path, "it lies more than 8 folders deep");
+    if (++parts > kDeepestAdded) throw refused(path, "it is more than 8 folders deep");
   }
 }
 
@@ -103,24 +104,24 @@ bool move_to_free(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 void check_added_files(const std::vector<AddedFile>& files) {
-  if (files.empty()) throw Advice("there is no file to add", "Choose a file, or a folder that is not empty.");
+  if (files.empty()) throw Advice("no file was chosen", "Choose a file, or a folder that is not empty.");
   if (files.size() > kMostAddedFiles) {
     throw Advice("these are " + std::to_string(files.size()) + " files; at most 2000 are added at once",
                  "Add the folders one by one, or copy them into the project's folder.");
   }
   if (sum_bytes(files) > kMostAddedBytes) {
     throw Advice("these files are larger than " + gigabytes(kMostAddedBytes) + " together",
-                 "Copy them into the project's folder: they are found there.");
+                 "Copy them into the project's folder; the studio finds them there.");
   }
   std::set<std::string> names, folders;
   for (const AddedFile& file : files) {
     check_path(file.path);
-    if (!names.insert(lower_case(file.path)).second) throw refused(file.path, "it is there twice");
+    if (!names.insert(lower_case(file.path)).second) throw refused(file.path, "it is given twice");
     for (fs::path above = fs::path(file.path).parent_path(); !above.empty(); above = above.parent_path())
       folders.insert(lower_case(above.string()));
   }
   for (const AddedFile& file : files) {
-    if (folders.contains(lower_case(file.path))) throw refused(file.path, "it is a file and a folder");
+    if (folders.contains(lower_case(file.path))) throw refused(file.path, "it is both a file and a folder");
   }
 }
 
@@ -152,11 +153,12 @@ void Addition::begin_files() {
 
 void Addition::append(std::size_t file, std::uint64_t at, std::string_view bytes) {
   if (file != current_ || current_ >= files_.size() || at != taken_) {
-    throw Error("these bytes are not the next ones: file " + std::to_string(file) + " at " + std::to_string(at) +
-                ", where file " + std::to_string(current_) + " at " + std::to_string(taken_) + " was expected");
+    throw Error("these bytes are not the next ones: they are of file " + std::to_string(file) + " at " +
+                std::to_string(at) + ", where file " + std::to_string(current_) + " at " + std::to_string(taken_) +
+                " was expected");
   }
   const AddedFile& of = files_[current_];
-  if (bytes.size() > of.bytes - taken_) throw Error(printable(of.path, 200) + ": it is longer than was said");
+  if (bytes.size() > of.bytes - taken_) throw Error(printable(of.path, 200) + ": it is longer than announced");
   const OpenedFile out(folder_.path() / of.path, O_WRONLY | O_APPEND);
   out.write(bytes);
   taken_ += bytes.size();
@@ -168,7 +170,7 @@ void Addition::append(std::size_t file, std::uint64_t at, std::string_view bytes
 }
 
 std::vector<Addition::Placed> Addition::commit() {
-  if (current_ < files_.size()) throw Error(printable(files_[current_].path, 200) + ": it has not arrived whole");
+  if (current_ < files_.size()) throw Error(printable(files_[current_].path, 200) + ": it has not arrived completely");
   std::map<std::string, bool> tops;  // in order; true: a folder
   for (const AddedFile& file : files_) {
     const fs::path path(file.path);

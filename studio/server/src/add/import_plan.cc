@@ -102,7 +102,7 @@ ImportChoice import_choice(const Project& project, const Json& args) {
   const std::vector<ConfigField> fields = list_fields("mapping", out.mapping);
   const Json& settings = member(args, "settings");
   for (const auto& [path, value] : settings.items()) {
-    if (!value.is_string()) throw Error(path + ": is not a text");
+    if (!value.is_string()) throw Error(path + ": is not text");
     const ConfigField& field = find_field(fields, path);
     // Texts as they are: they hold what set_text would take for quotes and lists.
     if (field.type == FieldType::kText) {
@@ -112,7 +112,7 @@ ImportChoice import_choice(const Project& project, const Json& args) {
     }
   }
   if (out.files.pose.empty()) {
-    throw Advice("there is no file with poses", "Choose the file in which the tracker's positions and rotations are.");
+    throw Advice("no file with poses is chosen", "Choose the file with the tracker's positions and rotations.");
   }
   return out;
 }

@@ -121,10 +121,10 @@ BlockWriter area_block(const AlignArea& area) {
 
 Json write_align_area(const AlignArea& area, const Project& project, const std::string& name, Hub& hub) {
   if (!area.result.texture)
-    throw Advice("there is no area to write: " + area.result.verdict, "Its verdicts state what can be done.");
+    throw Advice("no area can be written: " + area.result.verdict, "Its verdicts state what to do.");
   const fs::path target = project.writable(name);
   if (target == project.writable(area.folder))
-    throw Advice(name + ": the scans of the area are in there", "Write it into another folder.");
+    throw Advice(name + ": this folder contains the scans of the area", "Write it into another folder.");
   OutputFolder folder(target, naming_added(is_our_folder));
   write_area(folder.path(), area.input, area.result);
   Json files = Json::array();

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 10> kKeys{"paths", "mesh",         "mesh_
 
 std::string text_of(const Json& json, std::string_view what) {
   if (!json.is_string() || json.text().size() > kLongestName) {
-    throw Error("align: " + std::string(what) + " is not a text of at most 1000 bytes");
+    throw Error("align: " + std::string(what) + " is not text of at most 1000 bytes");
   }
   return json.get<std::string>();
 }
@@ -70,7 +70,7 @@ AlignChoice::Registered registered_of(const Json& json) {
 // Throws Error for a setting that the registration does not know or take.
 std::map<std::string, std::string> settings_of(const Json& json, std::string_view what) {
   if (!json.is_object() || json.size() > kMostSettings) {
-    throw Error("align: " + std::string(what) + " is no object of settings");
+    throw Error("align: " + std::string(what) + " is not an object of settings");
   }
   AlignChoice out;
   for (const auto& [path, value] : json.items()) out.config[path] = text_of(value, path);
@@ -92,7 +92,8 @@ AlignChoice::Area area_of(const Json& json) {
   AlignChoice::Area out;
   out.folder = text_of(part(json, "folder", "area"), "area.folder");
   const Json& config = part(json, "config", "area");
-  if (!config.is_object() || config.size() > kMostSettings) throw Error("align: area.config is no object of settings");
+  if (!config.is_object() || config.size() > kMostSettings)
+    throw Error("align: area.config is not an object of settings");
   for (const auto& [path, value] : config.items()) out.settings[path] = text_of(value, path);
   out.config();
   return out;
@@ -143,10 +144,10 @@ Json json_of_choice(const AlignChoice& choice) {
 }
 
 AlignChoice choice_of_json(const Json& section) {
-  if (!section.is_object()) throw Error("align: the section is no object");
+  if (!section.is_object()) throw Error("align: the section is not an object");
   for (const auto& [key, value] : section.items()) {
     if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      throw Error("align: there is no '" + printable(key) + "'");
+      throw Error("align: unknown key '" + printable(key) + "'");
     }
   }
   AlignChoice out;

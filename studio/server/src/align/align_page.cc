@@ -163,7 +163,7 @@ void AlignPage::pick(const Request& request) {
   Json out;
   out["T_mesh_world"] = json_of_pose(found.T_b_a);
   out["rms_m"] = found.rms_m;
-  shared_.document.edit("/align/T_mesh_world", out["T_mesh_world"], "lay the picked points on each other");
+  shared_.document.edit("/align/T_mesh_world", out["T_mesh_world"], "align the picked points");
   request.answer(out);
 }
 
@@ -174,7 +174,7 @@ void AlignPage::measure(const Request& request) {
   std::vector<Pose> poses;
   if (const Json* given = request.args().find("poses")) {
     if (!given->is_array() || given->size() != scene->of.paths.size())
-      throw Error("align.residuals: poses: not one for each path");
+      throw Error("align.residuals: poses: one pose for each path is needed");
     for (const Json& pose : *given) poses.push_back(pose_of_json(pose, "align.residuals: poses"));
   }
   answer_in_lane(shared_.jobs, "align residuals", request, "", "",
@@ -281,20 +281,20 @@ void AlignPage::accept(const Request& request) {
     throw Error("align.accept: solution: '" + solution + "' is neither 'best' nor 'runner_up'");
   }
   if (!last_ || last_->scene != scene()) {
-    throw Advice("there is no registration of these scans on this mesh", "Run one first.");
+    throw Advice("these scans are not registered on this mesh", "Register first.");
   }
   AlignChoice taken = choice();
   if (solution == "best") {
     taken.registered = last_->how;
   } else {
-    if (!last_->result.runner_up) throw Advice("the registration has no runner-up", "Take its best pose.");
+    if (!last_->result.runner_up) throw Advice("the registration has no runner-up", "Accept its best pose.");
     const Pose& other = last_->result.runner_up->T_mesh_world;
     taken.registered = AlignChoice::Registered{other, true, other};
   }
   taken.T_mesh_world = taken.registered->T_mesh_world;
   Json section = json_of_choice(taken);
   if (!ran().is_null()) section["ran"] = ran();  // as it was told, to the last digit
-  shared_.document.edit("/align", section, solution == "best" ? "take the registered pose" : "take the runner-up");
+  shared_.document.edit("/align", section, solution == "best" ? "accept the registered pose" : "accept the runner-up");
   request.done();
 }
 

@@ -21,16 +21,16 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 std::string certainty_of(const RegistrationResult& result) {
   const double shift_m = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());
   const double turn_rad = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
-  if (!std::isfinite(shift_m) || !std::isfinite(turn_rad)) return "How well the pose is known cannot be said.";
+  if (!std::isfinite(shift_m) || !std::isfinite(turn_rad)) return "The uncertainty of the pose cannot be computed.";
   if (!result.undetermined.empty()) {
     double sigma_m = 0.0;
     for (const UndeterminedMotion& motion : result.undetermined) sigma_m = std::max(sigma_m, motion.sigma_m);
     return std::isfinite(sigma_m)
-               ? fmt::format("Along what is not determined the path is known to {:.3g} mm (standard deviation).",
+               ? fmt::format("Along the undetermined motion the path is known to {:.3g} mm (standard deviation).",
                              1e3 * sigma_m)
-               : std::string("Along what is not determined nothing is known of the path but the guess.");
+               : std::string("Along the undetermined motion only the guess states the position of the path.");
   }
-  return fmt::format("The path's middle is known to {:.3g} mm and its turn to {:.2g}° (standard deviations).",
+  return fmt::format("The path's centre is known to {:.3g} mm and its rotation to {:.2g}° (standard deviations).",
                      1e3 * shift_m, turn_rad / kDegree);
 }
 

@@ -86,7 +86,7 @@ void show_points(AlignScene& scene) {
   }
   scene.registered_points = total;
   if (scene.p_world_m.empty()) {
-    throw Advice("the paths have no point that is finite", "Choose another scan, or look at it on the Process page.");
+    throw Advice("the paths have no finite point", "Choose another scan, or check it on the Process page.");
   }
   scene.middle_world_m /= static_cast<double>(scene.p_world_m.size());
 }

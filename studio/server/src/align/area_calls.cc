@@ -26,7 +26,7 @@ AlignChoice AreaCalls::choice() const { return choice_of_json(shared_.document.s
 void AreaCalls::make(const Request& request) {
   const AlignChoice::Area wanted = choice().area;
   if (wanted.folder.empty())
-    throw Advice("no registered scans are chosen", "Choose a folder that a registration of several scans has written.");
+    throw Advice("no registered scans are chosen", "Choose a folder that a registration of several scans wrote.");
   const std::filesystem::path folder = shared_.project.existing(wanted.folder);
   const std::uint64_t number = ++made_;
   struct Made {
@@ -58,7 +58,7 @@ void AreaCalls::write(const Request& request) const {
   const std::string name = request.text("name");
   write_target(shared_.project, request);
   if (!last_ || static_cast<std::uint64_t>(request.integer("number")) != made_)
-    throw Advice("the area that is shown is not the last one", "Make the area again.");
+    throw Advice("the area on the screen is not the newest one", "Make the area again.");
   answer_by_job(shared_.jobs, request, "Writing " + name, "align.area_write",
                 [area = last_, name, project = shared_.project, hub = &shared_.hub](const Observer&) {
                   return write_align_area(*area, project, name, *hub);

@@ -30,8 +30,7 @@ struct Start {
 
 Start start_of(const AlignChoice& choice) {
   if (!choice.T_mesh_world) {
-    throw Advice("the path has no place on the mesh yet",
-                 "Lay it there by hand, by picked points or by a registration.");
+    throw Advice("the path is not on the mesh yet", "Move it there by hand, by picked points or by a registration.");
   }
   const std::optional<AlignChoice::Registered>& registered = choice.registered;
   const bool unmoved = registered && json_of_pose(registered->T_mesh_world) == json_of_pose(*choice.T_mesh_world);

@@ -29,7 +29,7 @@ double number_of(const std::string& key, const Json& value, double low, double h
   if (!value.is_number()) refuse(key, "a number is needed");
   const auto number = value.get<double>();
   if (!(number >= low && number <= high)) {
-    refuse(key, number_text(number) + " is not within " + number_text(low) + " and " + number_text(high));
+    refuse(key, number_text(number) + " is not between " + number_text(low) + " and " + number_text(high));
   }
   return number;
 }
@@ -65,7 +65,7 @@ std::map<int, std::string> textures_of(const Json& value) {
     int number = 0;
     const auto read = std::from_chars(index.data(), index.data() + index.size(), number);
     if (read.ec != std::errc() || read.ptr != index.data() + index.size() || number < 0) {
-      refuse("textures." + index, "it is no texture's number");
+      refuse("textures." + index, "it is not the number of a texture");
     }
     out[number] = text_of("textures." + index, file);
   }
@@ -117,10 +117,10 @@ FeelChoices read_feel_choices(const Json& section) {
     } else if (key == "textures") {
       out.textures = textures_of(value);
     } else {
-      refuse(key, "there is no such key");
+      refuse(key, "unknown key");
     }
   }
-  if (!out.scene.empty() && !out.height_maps.empty()) refuse("scene", "a scene and height maps exclude each other");
+  if (!out.scene.empty() && !out.height_maps.empty()) refuse("scene", "choose either a scene or height maps");
   return out;
 }
 

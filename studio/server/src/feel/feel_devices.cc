@@ -34,15 +34,15 @@ std::string missing(const DeviceKind& kind, const FeelConfig& start) {
   const std::optional<NeededSetting> needed = start.feel.devices.missing(kind.name);
   if (!needed) return "";
   return "Its " + std::string(needed->what) + " is not set: asperity studio --set " + std::string(needed->setting) +
-         "=" + std::string(needed->example) + " or such.";
+         "=" + std::string(needed->example) + ", for example.";
 }
 
 std::string_view words_of(const DeviceKind& kind) {
-  if (kind.name == kMouse) return "The pointer pulls the point; what a hand would feel is drawn and heard.";
-  if (kind.vibrotactile) return "The modelled hand moves the point; its vibration is put out.";
+  if (kind.name == kMouse) return "The pointer pulls the point. The force is drawn, and its vibration is played.";
+  if (kind.vibrotactile) return "The modelled hand moves the point; its vibration is output.";
   if (kind.mover == DeviceMover::kModelledHand) return "A modelled hand strokes the scene for ten minutes.";
   if (kind.mover == DeviceMover::kPath) return "A recording or a table of positions moves the point.";
-  return "It is looked for when you start.";
+  return "The device is opened when you start.";
 }
 
 Eigen::Vector3d above_scene_m(const RenderModel& model) {
@@ -87,7 +87,7 @@ const DeviceKind& feel_device_kind(std::string_view name) {
   for (const DeviceKind& kind : kinds()) {
     if (kind.name == name) return kind;
   }
-  throw Error("there is no device '" + printable(std::string(name), 100) + "'");
+  throw Error("unknown device '" + printable(std::string(name), 100) + "'");
 }
 
 Json feel_devices_json(const FeelConfig& start) {
@@ -115,7 +115,7 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   out.config.feel.servo.paced = true;
   out.config.feel.servo.duration_s = 0.0;
   out.config.pointer.rate_Hz = out.config.feel.servo.rate_Hz;
-  observer.update("the way", 0.0);
+  observer.update("the path", 0.0);
   out.drive = drive_of(setup, out.kind, scene, observer);
   const bool mouse = out.kind.name == kMouse;
   observer.update("the device", 0.3);

@@ -46,7 +46,7 @@ void FeelPage::bind(Document& document, Calls& calls) {
   calls.add("feel.devices", [this](const Request& request) { request.answer(feel_devices_json(start_)); });
   calls.add("feel.open", [this](const Request& request) {
     if (!world_) {
-      throw Advice(problem_.empty() ? "there is no scene yet" : problem_,
+      throw Advice(problem_.empty() ? "no scene is open yet" : problem_,
                    hint_.empty() ? "Choose a scene, a mesh or height maps." : hint_);
     }
     request.answer(world_->block);
@@ -76,10 +76,10 @@ void FeelPage::check_edit(ClientId client, const Edit& edit) const {
   if (state_ == State::kIdle || !edit.path.starts_with("/feel") || (belongs_to(client) && !visited_)) return;
   const bool is_number = edit.path == "/feel/max_force_N" && edit.after.is_number();
   if (is_number && edit.after.get<double>() <= largest_force_N()) return;
-  if (visited_) throw Advice("a study is being felt", "It can be stopped, and its largest force lowered.");
-  throw Advice("another window is feeling this scene",
-               "It can be stopped, and its largest force lowered. To change it, stop it, or take the force when that "
-               "window has let it go.");
+  if (visited_) throw Advice("a study is running", "You can stop it or lower its largest force.");
+  throw Advice("another window is running this scene",
+               "You can stop it or lower its largest force. To change it, stop it, or take the force when that "
+               "window has released it.");
 }
 
 void FeelPage::load() {
@@ -90,7 +90,8 @@ void FeelPage::load() {
     const bool is_felt = run_ && !visited_ && world_;
     if (!is_felt) world_.reset();
     problem_ = is_felt ? "nothing is chosen" : "";
-    hint_ = is_felt ? "It goes on with " + world_->title + " until you stop. Choose something else, or undo it." : "";
+    hint_ = is_felt ? "The run continues with " + world_->title + " until you stop. Choose something else, or undo it."
+                    : "";
     return send_status();
   }
   auto result = std::make_shared<std::shared_ptr<const LoadedScene>>();
@@ -98,7 +99,7 @@ void FeelPage::load() {
     FeelSetup setup = resolve_choices(chosen, start_, shared_.project);
     loading_ = true;
     shared_.jobs.start(
-        "Reading what is to be felt", kModelSlot,
+        "Reading the scene", kModelSlot,
         [result, chosen, setup = std::move(setup), before = world_, number = ++worlds_](const Observer& observer) {
           observer.update("reading", 0.0);
           *result = load_scene(setup, chosen, before, number, observer);
@@ -127,7 +128,7 @@ void FeelPage::loaded(std::shared_ptr<const LoadedScene> world) {
 void FeelPage::swap_model() {
   auto result = std::make_shared<PreparedModel>();
   shared_.jobs.start(
-      "Bringing the change to the device", kSwapSlot,
+      "Sending the change to the device", kSwapSlot,
       [result, world = world_, info = running_.info, kind = running_.kind, config = running_.config](const Observer&) {
         *result = prepare_swapped_model(*world, info, kind.driven() || kind.name == "mouse", config);
       },
@@ -143,7 +144,7 @@ void FeelPage::swap_model() {
 // A scene that cannot be read leaves the one before as it is.
 void FeelPage::complain(std::exception_ptr error) {
   auto complaint = complaint_of(
-      error, world_ ? "What was felt before is as it was; change the choice, or undo it." : "Choose something else.");
+      error, world_ ? "The scene before is unchanged. Change the choice, or undo it." : "Choose something else.");
   if (!complaint) return;
   problem_ = std::move(complaint->problem);
   hint_ = std::move(complaint->hint);

@@ -20,7 +20,7 @@ namespace asperity::studio {
 
 namespace {
 
-constexpr std::array<const char*, 4> kEnds{"its time was over", "the way was at its end", "stopped", "fault"};
+constexpr std::array<const char*, 4> kEnds{"time limit reached", "end of the path", "stopped", "fault"};
 
 // How a run went: its end, statistics, verdicts, and how well the schedule of `servo` was kept.
 Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
@@ -48,14 +48,14 @@ struct FeelPage::Opening {
 };
 
 void FeelPage::check_start(const DeviceKind& kind, const Request& request) const {
-  if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
+  if (state_ != State::kIdle) throw Advice("a scene is running already", "Stop it first.");
   if (kind.has_person && !shared_.may_command_forces) {
-    throw Advice("forces are not commanded from here",
-                 "The studio listens to other machines: start it with --remote-force, or look on with the mouse.");
+    throw Advice("this studio does not command forces",
+                 "Other machines can reach this studio. Start it with --remote-force, or use the mouse.");
   }
   const std::optional<ClientId> owner = shared_.lease.owner(host_now_ns());
   if (owner && *owner != request.client()) {
-    throw Advice("another window has the force", "Let it go there, or stop the run there, first.");
+    throw Advice("another window has the force", "Release it there, or stop the run there, first.");
   }
 }
 
@@ -80,8 +80,8 @@ void FeelPage::visit(const Request& request, FeelVisit visit) {
   const DeviceKind& kind = feel_device_kind(visit.setup.device);
   check_start(kind, request);
   if (!shared_.may_command_forces) {
-    throw Advice("nothing could be felt: forces are not commanded from here",
-                 "The studio listens to other machines: start it with --remote-force.");
+    throw Advice("the run ended: this studio does not command forces",
+                 "Other machines can reach this studio. Start it with --remote-force to allow forces.");
   }
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
@@ -163,9 +163,9 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
 
 // Another window goes on with the run: by its own word, and with the lease.
 void FeelPage::take(const Request& request) {
-  if (state_ == State::kIdle) throw Advice("nothing is felt at the moment", "Start.");
+  if (state_ == State::kIdle) throw Advice("no scene is running", "Start.");
   if (shared_.lease.owner(host_now_ns()) != request.client()) {
-    throw Advice("another window has the force", "Let it go there first.");
+    throw Advice("another window has the force", "Release it there first.");
   }
   run_owner_ = request.client();
   request.done();
@@ -223,22 +223,22 @@ void FeelPage::ended() {
 void FeelPage::keep_flight_record(ServoResult servo) {
   const auto ticks = std::make_shared<const std::vector<ServoTick>>(std::move(servo.last_ticks));
   shared_.jobs.start_in(
-      "feel", "Keeping what happened before the fault", "",
+      "feel", "Saving the record before the fault", "",
       [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
         refuse_stranger(file, format_flight_record({}));
         write_flight_record(file, *ticks);
       },
       [this](std::exception_ptr error) {
         if (error) return complain(error);
-        warnings_.push_back(std::string("what happened before the fault is in ") + kFlightRecord);
+        warnings_.push_back(std::string("the record of the time before the fault is in ") + kFlightRecord);
         send_status();
       });
 }
 
 void FeelPage::set_log(const Request& request) {
-  if (!run_) throw Advice("nothing is felt at the moment", "Start, then log.");
+  if (!run_) throw Advice("no scene is running", "Start a run, then write a log.");
   if (!request.flag("on")) {
-    if (log_name_.empty()) throw Advice("no log is being written", "Begin one first.");
+    if (log_name_.empty()) throw Advice("no log is being written", "Start one first.");
     log_requests_.push_back(request);
     return run_->log().end();
   }
@@ -277,7 +277,7 @@ void FeelPage::log_is_whole(const std::string& fault) {
   out["log"] = std::exchange(log_name_, {});
   if (!fault.empty()) {
     problem_ = "the log is lost: " + fault;
-    hint_ = "Free some space, or see whether the folder may be written; the run goes on.";
+    hint_ = "Free some space, or check that the folder is writable; the run continues.";
   }
   for (const Request& request : std::exchange(log_requests_, {})) {
     fault.empty() ? request.answer(out) : request.refuse(Advice(problem_, hint_));

@@ -44,13 +44,13 @@ std::vector<ConfigField> settable_fields(FeelConfig& config) {
 bool is_live(std::string_view path) { return path.starts_with("render."); }
 
 FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project) {
-  if (choices.empty()) throw Advice("nothing to feel is chosen", "Choose a scene, a mesh or height maps.");
+  if (choices.empty()) throw Advice("no scene is chosen", "Choose a scene, a mesh or height maps.");
   FeelSetup out;
   out.config = start;
   const std::vector<ConfigField> fields = settable_fields(out.config);
   for (const auto& [path, value] : choices.settings) set_field(fields, path, value);
   if (!is_feel_device(choices.device)) {
-    throw Advice("there is no device '" + printable(choices.device, 100) + "'", "Choose one of the list.");
+    throw Advice("unknown device '" + printable(choices.device, 100) + "'", "Choose a device of the list.");
   }
   out.device = choices.device;
   if (!choices.replay.empty()) out.replay = project.existing(choices.replay).string();

@@ -170,7 +170,7 @@ class PaintPage : public Page {
                     const PaintedScene painted =
                         paint_all(cache->read(file, painting.unit_m, observer), painting, *project, observer);
                     for (const PaintedStroke& stroke : painted.strokes) {
-                      if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
+                      if (!stroke.fault.empty()) throw Advice(stroke.fault, "Remove the stroke, or draw it again.");
                     }
                     observer.update("writing", 0.9);
                     write_scene(folder.path() / "scene.json", painted.scene);
@@ -185,7 +185,7 @@ class PaintPage : public Page {
     const fs::path source = shared_.project.existing(request.text("source"));
     const std::string format_name = request.text("format");
     const auto found = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_name);
-    if (found == kExportFormatNames.end()) throw Error("there is no format '" + format_name + "' to export to");
+    if (found == kExportFormatNames.end()) throw Error("unknown export format '" + format_name + "'");
     const auto format = static_cast<ExportFormat>(found - kExportFormatNames.begin());
     const std::string name = request.text("name");
     const fs::path target = write_target(shared_.project, request);

@@ -28,7 +28,7 @@ double number_of(const Json& value, const char* what, double low, double high) {
 
 std::string text_of(const Json& value, const char* what) {
   constexpr std::size_t kLongest = 1000;
-  if (!value.is_string() || value.text().size() > kLongest) throw Error(std::string("paint: ") + what + " is no text");
+  if (!value.is_string() || value.text().size() > kLongest) throw Error(std::string("paint: ") + what + " is not text");
   return value.get<std::string>();
 }
 
@@ -38,8 +38,8 @@ Stroke stroke_of(const Json& json) {
   out.texture = text_of(json.at("texture"), "a stroke's texture");
   out.index = static_cast<int>(number_of(json.at("index"), "a stroke's index", 0, 1e6));
   if (!json.at("picks_m").is_array() || json.at("picks_m").size() > kMostPicks) {
-    throw Advice("a stroke has " + std::to_string(kMostPicks) + " points at most",
-                 "Finish this one, and begin another where it ends.");
+    throw Advice("a stroke can have " + std::to_string(kMostPicks) + " points at most",
+                 "Finish this one, and start another where it ends.");
   }
   for (const Json& pick : json.at("picks_m")) {
     if (!pick.is_array() || pick.size() != 3) throw Error("paint: a point is not three numbers");
@@ -105,15 +105,15 @@ Painting parse_painting(const Json& section) {
   out.coordinates.rings = static_cast<int>(number_of(section.at("rings"), "the number of rings", 0, 1000));
   out.coordinates.half_width_mm = number_of(section.at("half_width_mm"), "half the width", 0.0, 1e6);
   if (!section.at("strokes").is_array() || section.at("strokes").size() > kMostStrokes) {
-    throw Advice("a scene has " + std::to_string(kMostStrokes) + " strokes at most",
-                 "Write the scene, and go on painting on that.");
+    throw Advice("a scene can have " + std::to_string(kMostStrokes) + " strokes at most",
+                 "Write the scene, and continue to paint on that scene.");
   }
   for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
   text_of(section.at("written"), "the scene that was written");
   number_of(section.at("current"), "the chosen stroke", -1, kMostStrokes);
   for (const auto& [index, texture] : section.at("swaps").items()) {
     if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos) {
-      throw Error("paint: '" + index + "' is no texture's number");
+      throw Error("paint: '" + index + "' is not the number of a texture");
     }
     out.swaps[std::stoi(index)] = text_of(texture, "a texture");
   }

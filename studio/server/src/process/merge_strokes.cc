@@ -92,7 +92,7 @@ Json write_merged(const fs::path& target, const MergedStrokes& merged) {
     if (verdict.severity != Severity::kNote) notes.push_back(verdict_line(verdict));
   }
   for (const fs::path& kept : folder.commit())
-    notes.push_back(printable(kept.string(), 200) + " was put there meanwhile; it was kept");
+    notes.push_back(printable(kept.string(), 200) + " was added there in the meantime; it was kept");
   return {{"notes", std::move(notes)}};
 }
 

@@ -16,25 +16,25 @@ const Json& member(const Json& object, const char* name) {
 }
 
 std::string text_of(const Json& value, const std::string& name) {
-  if (!value.is_string()) throw Error("process: '" + name + "' is no text");
+  if (!value.is_string()) throw Error("process: '" + name + "' is not text");
   std::string text = value.get<std::string>();
   if (text.size() > kLongestText) throw Error("process: '" + name + "' is too long");
   return text;
 }
 
 void read_settings(const Json& config, const std::vector<ConfigField>& fields) {
-  if (!config.is_object()) throw Error("process: 'config' is no list of settings");
+  if (!config.is_object()) throw Error("process: 'config' is not an object of settings");
   for (const auto& [path, value] : config.items()) set_field(fields, path, text_of(value, path));
 }
 
 MergeChoice merge_choice(const Json& json) {
   MergeChoice out;
-  if (!json.is_object()) throw Error("process: 'merge' is no object");
+  if (!json.is_object()) throw Error("process: 'merge' is not an object");
   refuse_unknown(json, {"strokes", "config"}, "process");
   const Json& strokes = member(json, "strokes");
   if (!strokes.is_array() || strokes.size() > kMostScans) {
     throw Advice("at most " + std::to_string(kMostScans) + " strokes can be merged",
-                 "Take one out before you add another.");
+                 "Remove one before you add another.");
   }
   for (const Json& stroke : strokes) out.strokes.push_back(text_of(stroke, "strokes"));
   read_settings(member(json, "config"), list_fields("align", out.align));
@@ -62,13 +62,13 @@ ProcessChoice process_choice(const Json& section) {
   refuse_unknown(section, {"scans", "current", "config", "merge"}, "process");
   const Json& scans = member(section, "scans");
   if (!scans.is_array() || scans.size() > kMostScans) {
-    throw Advice("at most " + std::to_string(kMostScans) + " recordings can be looked at together",
-                 "Take one out before you add another.");
+    throw Advice("at most " + std::to_string(kMostScans) + " recordings can be shown together",
+                 "Remove one before you add another.");
   }
   for (const Json& scan : scans) out.scans.push_back(scan_name(scan));
   const Json& current = member(section, "current");
   if (!current.is_number_unsigned() && !(current.is_number_integer() && current.get<std::int64_t>() >= 0)) {
-    throw Error("process: 'current' is no index");
+    throw Error("process: 'current' is not an index");
   }
   out.current = std::min<std::size_t>(current.get<std::size_t>(), kMostScans);
   read_settings(member(section, "config"), list_fields("", out.config));

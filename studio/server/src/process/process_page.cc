@@ -49,7 +49,7 @@ BlockWriter report_block(const Project& project, const std::string& folder) {
   try {
     page = read_file(project.existing(folder + "/report.html"), kLargestReport_bytes);
   } catch (const Error& error) {
-    throw Advice(error.what(), "Write the results again: a report is written with them.");
+    throw Advice(error.what(), "Write the results again; the report is written with them.");
   }
   BlockWriter block("report");
   block.add("page", std::vector<std::uint8_t>(page.begin(), page.end()));

@@ -39,8 +39,8 @@ void check_names(const std::vector<NamedScan>& scans) {
   std::set<std::string> names;
   for (const NamedScan& scan : scans) {
     if (!names.insert(scan.name).second) {
-      throw Advice("two of the recordings are called '" + printable(scan.name) + "'",
-                   "Write them one after the other, into folders of their own.");
+      throw Advice("two of the recordings have the name '" + printable(scan.name) + "'",
+                   "Write each of them into its own folder.");
     }
   }
 }
@@ -80,7 +80,7 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   observer.update("writing", 1.0);
   if (items.size() > 1) write_report(folder.path(), items);
   for (const fs::path& kept : folder.commit()) {
-    notes.push_back(printable(kept.string(), 200) + " was put there meanwhile; it was kept");
+    notes.push_back(printable(kept.string(), 200) + " was added there in the meantime; it was kept");
   }
   return {{"files", std::move(files)}, {"notes", std::move(notes)}};
 }

@@ -33,19 +33,21 @@ struct BenchConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("surface", surface, kBenchSurfaceNames, "what is scanned");
-    v.choice("material", material, kBenchMaterialNames, "what it is made of");
-    v.choice("probe", probe, kProbeModelNames, "what (8 bit, 400 Hz) or open (16 bit, 4 kHz)");
+    v.choice("surface", surface, kBenchSurfaceNames, "scanned surface");
+    v.choice("material", material, kBenchMaterialNames, "material of the surface");
+    v.choice("probe", probe, kProbeModelNames,
+             "probe model: what (8 bit, 400 Hz; the probe of the thesis) or open (16 bit, 4 kHz)");
     v.field("speed_mps", speed_mps, "mean speed of the hand, m/s", {0.001, 1.0});
-    v.field("length_m", length_m, "of the stroke, m", {0.005, 0.3});
-    v.field("force_N", force_N, "with which the hand presses, N", {0.05, 10.0});
-    v.field("rest_s", rest_s, "before and after the stroke; the probe is set down and lifted off in it, s",
+    v.field("length_m", length_m, "length of the stroke, m", {0.005, 0.3});
+    v.field("force_N", force_N, "force of the hand, N", {0.05, 10.0});
+    v.field("rest_s", rest_s,
+            "static interval before and after the stroke, in which the probe is set down and lifted off, s",
             {0.3, 10.0});
-    v.field("camera_rate_Hz", camera_rate_Hz, "frames a second, Hz", {5.0, 240.0});
-    v.field("drop_after_s", drop_after_s,
-            "a frame that is later on a slow machine is dropped, s: what is shown is of now", {0.01, 3600.0});
+    v.field("camera_rate_Hz", camera_rate_Hz, "frame rate of the camera, Hz", {5.0, 240.0});
+    v.field("drop_after_s", drop_after_s, "on a slow machine, frames that are later than this are dropped, s",
+            {0.01, 3600.0});
     v.field("background", background, "a cluttered background behind the probe");
-    v.field("seed", seed, "of all randomness; the same seed gives the same scan", {0.0, 9e15});
+    v.field("seed", seed, "seed of the random numbers; the same seed gives the same scan", {0.0, 9e15});
   }
 };
 

@@ -12,17 +12,17 @@ void check_input(const RecordInput& input) {
   if (input.probe.empty())
     throw Advice("no probe is named", "Give its address, such as serial:/dev/ttyUSB0 or udp:5005.");
   if (!input.camera.empty() && !input.poses.empty())
-    throw Advice("there are a camera and another tracker", "Take one of the two addresses away.");
+    throw Advice("both a camera and another tracker are named", "Remove one of the two addresses.");
   if (input.calibration.empty() && !input.uncalibrated)
     throw Advice("no calibration is named",
                  "Name a calibration.json of the project's folder, or choose to record without one.");
   if (!input.calibration.empty() && input.uncalibrated)
-    throw Advice("a calibration is named, and yet the recording is to be without one", "Choose one of the two.");
+    throw Advice("a calibration is named, but the recording is set to have none", "Choose one of the two.");
   if (!input.camera.empty() && input.uncalibrated)
     throw Advice("a camera needs its calibration to find poses",
-                 "Name a calibration.json with the camera in it, or take the camera's address away.");
+                 "Name a calibration.json with the camera in it, or remove the camera's address.");
   if (!input.markers.empty() && input.camera.empty())
-    throw Advice("markers are named without a camera", "Give the camera's address, or take the markers away.");
+    throw Advice("markers are named without a camera", "Give the camera's address, or remove the markers.");
 }
 
 class HardwareSource : public ScanSource {

@@ -148,8 +148,8 @@ class ReplaySource : public ScanSource {
  public:
   explicit ReplaySource(Recording recording) : stage_(std::make_shared<ReplayStage>()) {
     if (recording.probe.size() == 0) {
-      throw Advice("the recording has no rows of the probe: there is nothing to play",
-                   "Choose another recording, or all of it in the place of a segment.");
+      throw Advice("the recording has no samples of the probe to replay",
+                   "Choose another recording, or all of it instead of a segment.");
     }
     if (!recording.calibration.uncalibrated) calibration_ = recording.calibration;
     stage_->recording = std::move(recording);

@@ -77,9 +77,9 @@ void read_hardware(const Json& value, ScanChoices& out) {
       input.uncalibrated = flag_of(key, choice);
     } else if (name == "world") {
       out.world = text_of(key, choice);
-      if (out.world != "camera" && out.world != "z_up") refuse(key, "it is neither camera nor z_up");
+      if (out.world != "camera" && out.world != "z_up") refuse(key, "it must be camera or z_up");
     } else {
-      refuse(key, "there is no such key");
+      refuse(key, "unknown key");
     }
   }
 }
@@ -96,7 +96,7 @@ std::string device_of(const std::string& path) {
   std::error_code error;
   const std::filesystem::path device = std::filesystem::weakly_canonical(path, error);
   if (error || !path.starts_with('/') || !device.string().starts_with("/dev/"))
-    throw Advice(printable(path, 200) + ": is no device", "Devices are in /dev, such as serial:/dev/ttyUSB0.");
+    throw Advice(printable(path, 200) + ": is not a device", "Devices are in /dev, such as serial:/dev/ttyUSB0.");
   return device.string();
 }
 
@@ -127,7 +127,7 @@ ScanChoices read_scan_choices(const Json& section) {
   for (const auto& [key, value] : section.items()) {
     if (key == "source") {
       const auto found = std::find(kSourceNames.begin(), kSourceNames.end(), text_of(key, value));
-      if (found == kSourceNames.end()) refuse(key, "it is neither bench, hardware nor replay");
+      if (found == kSourceNames.end()) refuse(key, "it must be bench, hardware or replay");
       out.source = static_cast<SourceKind>(found - kSourceNames.begin());
     } else if (key == "hardware") {
       read_hardware(value, out);
@@ -144,7 +144,7 @@ ScanChoices read_scan_choices(const Json& section) {
     } else if (key == "settings") {
       out.settings = settings_of(value);
     } else {
-      refuse(key, "there is no such key");
+      refuse(key, "unknown key");
     }
   }
   return out;
@@ -158,14 +158,14 @@ RecordInput resolve_hardware(const RecordInput& typed, const Project& project) {
     if (probe.kind == ProbeLinkKind::kFile) {
       const std::string path = project.existing(probe.path).string();
       if (path.find('@') != std::string::npos && probe.bytes_per_s == 0.0)
-        throw Advice(printable(path, 200) + ": a path with @ in it cannot be told from a rate",
-                     "Give the rate too, as in file:capture.bin@5000, or rename the folder.");
+        throw Advice(printable(path, 200) + ": the @ in this path could begin a rate",
+                     "State the rate too, as in file:capture.bin@5000, or rename the folder.");
       out.probe = with_path(typed.probe, probe.path, path);
     }
   }
   if (!typed.camera.empty()) {
     const CameraAddress camera = parse_camera_address(typed.camera);
-    if (camera.path == "-") throw Advice("y4m:- is no camera here", "Name a FIFO in the project's folder.");
+    if (camera.path == "-") throw Advice("the studio cannot read y4m:-", "Name a FIFO in the project's folder.");
     if (camera.kind == CameraKind::kV4l2) {
       out.camera = with_path(typed.camera, camera.path, device_of(camera.path));
     } else {

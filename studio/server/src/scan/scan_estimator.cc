@@ -73,7 +73,8 @@ void ScanEstimator::keep_valid(LiveEstimate& estimate) {
     point.height_m = point.sigma_m = point.texture_m = std::numeric_limits<double>::quiet_NaN();
   }
   waiting_ = estimate.waiting;
-  if (waiting_.empty() && trusted_share_ < kEnough) waiting_ = "No live profile now: too few poses come in time.";
+  if (waiting_.empty() && trusted_share_ < kEnough)
+    waiting_ = "No live profile at the moment: too few poses arrive in time.";
 }
 
 bool ScanEstimator::is_near_poses(const LiveTip& tip) const {

@@ -86,7 +86,7 @@ class ScanPage : public Page {
     calls.add("scan.segment", [this](const Request& request) {
       const std::string name = request.text("name");
       constexpr std::size_t kLongest = 100;
-      if (name.size() > kLongest) throw Advice("the segment's name is too long", "Take at most 100 letters.");
+      if (name.size() > kLongest) throw Advice("the segment's name is too long", "Use at most 100 letters.");
       session().next_segment(name);
       request.done();
     });
@@ -105,7 +105,7 @@ class ScanPage : public Page {
     calls.add("scan.profile", [this](const Request& request) { request.answer(session().profile()); });
     calls.add("scan.path", [this](const Request& request) { request.answer(session().path()); });
     calls.add("scan.refined", [this](const Request& request) {
-      if (!refined_) throw Advice("there is no finished scan yet", "Scan, and press Stop.");
+      if (!refined_) throw Advice("no scan is finished yet", "Scan, and press Stop.");
       request.answer(*refined_);
     });
   }
@@ -164,13 +164,12 @@ class ScanPage : public Page {
     chosen.hardware = resolve_hardware(chosen.hardware, shared_.project);
     std::optional<fs::path> recording;
     if (chosen.source == SourceKind::kHardware && !shared_.may_command_forces) {
-      throw Advice(
-          "sensors of this machine are not opened from here",
-          "The studio was started for other machines to look on: start it with --remote-force to change that.");
+      throw Advice("this studio does not open sensors of this machine",
+                   "Other machines can reach this studio. Start it with --remote-force to allow sensors.");
     }
     if (chosen.source == SourceKind::kReplay) {
       if (chosen.recording.empty())
-        throw Advice("no recording is chosen", "Choose one of the project's folder to be replayed.");
+        throw Advice("no recording is chosen", "Choose a recording of the project's folder.");
       recording = shared_.project.existing(chosen.recording);
     }
     ScanSetup setup;

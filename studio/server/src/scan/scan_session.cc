@@ -88,8 +88,7 @@ void ScanSession::rescan() {
 
 void ScanSession::restore() {
   if (!snapshot().last_discarded)
-    throw Advice("nothing was discarded that could be brought back",
-                 "Segments can be brought back until the recording is closed.");
+    throw Advice("no discarded segment can be restored", "Segments can be restored until the recording is closed.");
   recorder_->restore_segment();
 }
 
@@ -179,9 +178,8 @@ void ScanSession::run() {
     try {
       run_round(last);
     } catch (const std::exception& error) {
-      send_message(
-          std::string("The live profile stops here: ") + error.what(),
-          "The recording goes on. Take the last change of the settings back, or stop and process the recording.");
+      send_message(std::string("The live profile stops here: ") + error.what(),
+                   "The recording continues. Undo the last change of the settings, or stop and process the recording.");
     }
   }
 }

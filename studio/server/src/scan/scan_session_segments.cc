@@ -100,7 +100,7 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
   });
   if (back == list.end()) return;
   if (!estimator_->kept().covers(back->start_ns)) {
-    send_message(back->name + " is in the recording again; its rows are not in memory any more",
+    send_message(back->name + " is in the recording again, but its rows are no longer in memory",
                  "Finish the recording, and open it on the Process page.");
     return;
   }
@@ -121,7 +121,7 @@ void ScanSession::hand_over(const RecorderSnapshot& now) {
   KeptRows& kept = estimator_->kept();
   kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
   if (!kept.covers(segment.start_ns)) {
-    send_message(segment.name + " is too long to be refined here; the recording has all of it",
+    send_message(segment.name + " is too long to be refined here; the recording is complete",
                  "Finish the recording, and open it on the Process page.");
     return;
   }

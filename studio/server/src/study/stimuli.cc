@@ -37,7 +37,7 @@ Stimuli read_stimuli(const Study& study, const Project& project) {
     out.crc32.push_back(asperity::crc32(bytes));
     const bool slippery = !(out.textures.back().friction.value_or(study.presentation.friction) > 0.0);
     if (study.method == StudyMethod::kStaircase && study.parameter == StudyParameter::kFrictionDifference && slippery) {
-      throw Advice(printable(name, 200) + ": has no friction that could be changed",
+      throw Advice(printable(name, 200) + ": has no friction to change",
                    "Set the study's friction, or choose another parameter.");
     }
   }
@@ -54,7 +54,7 @@ void check_unchanged(const Study& study, const Stimuli& stimuli, const std::vect
   if (count == 0) return;
   throw Advice(
       changed + (count == 1 ? " has" : " have") + " changed since this session began",
-      std::string("Put the old ") + (count == 1 ? "file" : "files") + " back and continue, or begin a new session.");
+      std::string("Restore the old ") + (count == 1 ? "file" : "files") + " and continue, or begin a new session.");
 }
 
 }  // namespace asperity::studio

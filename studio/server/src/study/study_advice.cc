@@ -7,19 +7,19 @@ namespace {
 const char* hint_for(StudyFault fault) {
   switch (fault) {
     case StudyFault::kForeignFile:
-      return "Choose a study that this page has written.";
+      return "Choose a study that this page wrote.";
     case StudyFault::kUnknownVersion:
-      return "Open it with the program that has written it, or a newer one.";
+      return "Open it with the program that wrote it, or with a newer one.";
     case StudyFault::kParticipant:
-      return "Give one such as p01; no names.";
+      return "Enter a code such as p01, not a name.";
     case StudyFault::kTooFewTextures:
       return "Choose more textures or images of the folder.";
     case StudyFault::kTooManyTrials:
-      return "Take fewer textures or fewer repetitions.";
+      return "Use fewer textures or fewer repetitions.";
     case StudyFault::kStaircaseLevels:
       return "Change one of the three.";
     case StudyFault::kStaircaseReversals:
-      return "Ask for two reversals more than halvings, or more.";
+      return "Set at least two reversals more than halvings.";
   }
   return "";
 }

@@ -44,15 +44,15 @@ Section read_section(const Json& section) {
 
 Study read_study_file(const Project& project, const std::string& name) {
   if (!name.ends_with(kStudyEnding)) {
-    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding),
-                 "Choose a study that this page has written.");
+    throw Advice(printable(name, 200) + ": is not a *" + std::string(kStudyEnding),
+                 "Choose a study that this page wrote.");
   }
   return advised([&] { return parse_study_file(read_file(project.existing(name), kLargestStudy_bytes), name); });
 }
 
 StudyLog read_log(const Project& project, const std::string& name) {
   if (!name.ends_with(kStudyLogEnding)) {
-    throw Advice(printable(name, 200) + ": is no log of a study",
+    throw Advice(printable(name, 200) + ": is not the log of a study",
                  "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
   }
   return advised([&] { return parse_study_log(read_file(project.existing(name), kLargestStudyLog_bytes), name); });
@@ -113,7 +113,7 @@ void StudyPage::bind_setup(Calls& calls) {
   });
   calls.add("study.write", [this](const Request& request) {
     if (!request.text("name").ends_with(kStudyEnding)) {
-      throw Advice(printable(request.text("name"), 200) + ": is no name of a study",
+      throw Advice(printable(request.text("name"), 200) + ": is not the name of a study",
                    "Give it the ending " + std::string(kStudyEnding) + ".");
     }
     answer_by_job(shared_.jobs, request, "", "",
@@ -133,7 +133,7 @@ void StudyPage::bind_logs(Calls& calls) {
     std::error_code error;
     if (session_ && std::filesystem::equivalent(asked, shared_.project.folder() / log_name_, error)) {
       throw Advice("this log is being written",
-                   "Its results are shown when the session is over, so that nobody's answers depend on them.");
+                   "Its results are shown after the session, so that they cannot influence the answers.");
     }
   };
   calls.add("study.results", [this, check_closed](const Request& request) {
@@ -161,7 +161,7 @@ void StudyPage::bind_logs(Calls& calls) {
 }
 
 void StudyPage::complain(std::exception_ptr error) {
-  auto complaint = complaint_of(error, "What was answered before is in the log.");
+  auto complaint = complaint_of(error, "The earlier answers are in the log.");
   if (!complaint) return;
   problem_ = std::move(complaint->problem);
   hint_ = std::move(complaint->hint);

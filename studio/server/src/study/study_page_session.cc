@@ -74,13 +74,13 @@ struct StudyPage::Opening {
 
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) {
-      throw Advice(printable(name, 200) + ": is no log of a study",
+      throw Advice(printable(name, 200) + ": is not the log of a study",
                    "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
     }
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestStudyLog_bytes), name);
-    if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
+    if (!read.session.trial()) throw Advice(name + ": all its trials have been answered", "Open its results.");
     stimuli = read_stimuli(read.session.study(), project);
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);
     log = std::make_shared<StudyLogFile>(StudyLogFile::open(file, read.whole_bytes));
@@ -94,7 +94,7 @@ void StudyPage::bind_session(Calls& calls) {
   calls.add("study.begin", [this](const Request& request) { begin(request); });
   calls.add("study.continue", [this](const Request& request) { go_on(request.text("log"), &request); });
   calls.add("study.open", [this](const Request& request) {
-    if (!session_) throw Advice("there is no session", "Begin one.");
+    if (!session_) throw Advice("no session is open", "Begin a session.");
     request.answer(make_trial_block(session_->study()));
   });
   calls.add("study.touch", [this](const Request& request) { touch(request); });
@@ -126,7 +126,7 @@ void StudyPage::start() {
   try {
     const Json running = parse_study_text(read_file(file, kLargestRunningFile), kRunningFile);
     if (!running.is_object() || !running.contains("log") || !running["log"].is_string()) {
-      throw Error(std::string(kRunningFile) + ": names no log");
+      throw Error(std::string(kRunningFile) + ": does not name a log");
     }
     go_on(running["log"].get<std::string>(), nullptr);
   } catch (const std::exception&) {
@@ -140,7 +140,7 @@ void StudyPage::begin(const Request& request) {
   opening->study = study();
   opening->participant = shared_.document.section("study").value("participant", "");
   if (opening->participant.empty()) {
-    throw Advice("the participant has no code", "Give one, such as p01; no names.");
+    throw Advice("the participant has no code", "Enter a code such as p01, not a name.");
   }
   advised([&] { check_plan(opening->study); });
   open(opening, &request, "");
@@ -183,7 +183,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
         before_s_ = opening->before_s;
         opened_ns_ = host_now_ns();
         problem_ = opening->problem;
-        hint_ = problem_.empty() ? "" : "The trial is asked again.";
+        hint_ = problem_.empty() ? "" : "The trial is repeated.";
         phase_ = why.empty() ? Phase::kRunning : Phase::kPaused;
         why_ = why;
         present();
@@ -275,9 +275,10 @@ std::string StudyPage::date() const { return session_->study().dates ? utc_now()
 void StudyPage::answer(const Request& request) {
   if (phase_ != Phase::kRunning) throw Advice("no trial is open", "Begin a session, or end the break.");
   if (request.integer("trial") != session_->trial()->number) {
-    throw Advice("this trial was answered already", "Another one is shown now.");
+    throw Advice("this trial is answered already", "Another one is shown now.");
   }
-  if (!touched_) throw Advice("nothing was felt in this trial", "Press Space, and touch before you answer.");
+  if (!touched_)
+    throw Advice("nothing was touched in this trial", "Press Space and touch the surface before you answer.");
   StudySession next = *session_;
   const std::int64_t value = request.integer("answer");
   if (value < 0 || value > kHighestRating) throw Error(std::to_string(value) + " is not an answer to this trial");
@@ -293,7 +294,7 @@ void StudyPage::answer(const Request& request) {
 
 void StudyPage::take_back(const Request& request) {
   if (!session_ || !session_->can_take_back()) {
-    throw Advice("no answer can be taken back", "The last one can, until the next is given.");
+    throw Advice("no answer can be withdrawn", "Only the last answer can be withdrawn, until the next one is given.");
   }
   StudySession next = *session_;
   next.take_back();

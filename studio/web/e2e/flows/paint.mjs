@@ -8,7 +8,7 @@ export default async function paint({ page, step, folder, until, equal, near, ok
 
   await step("choose the pebble and its unit", async () => {
     await page.getByTestId("paint-object").selectOption("pebble.obj");
-    await page.getByTestId("paint-size").filter({ hasText: "Is the unit right?" }).waitFor();
+    await page.getByTestId("paint-size").filter({ hasText: "Check the unit." }).waitFor();
     await page.getByTestId("paint-unit").selectOption("mm");
     const size = page.getByTestId("paint-size").filter({ hasText: /mm/ });
     await size.waitFor();
@@ -28,7 +28,7 @@ export default async function paint({ page, step, folder, until, equal, near, ok
   });
 
   await step("the texture's coordinates, the warp and the textures are shown", async () => {
-    for (const [value, words] of [["coordinates", "chequer"], ["warp", "squeezed"], ["textures", ""]]) {
+    for (const [value, words] of [["coordinates", "checkerboard"], ["warp", "compressed"], ["textures", ""]]) {
       await page.getByTestId("paint-show").selectOption(value);
       await page.getByTestId("paint-legend").filter({ hasText: words }).waitFor();
     }

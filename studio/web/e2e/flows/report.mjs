@@ -45,7 +45,7 @@ export default async function report({ browser, openPage, step, folder, asperity
       "both.html",
       async (page) => {
         await page.getByRole("heading", { name: "2 results" }).waitFor();
-        await page.getByRole("region", { name: "Figures of all results" }).waitFor();
+        await page.getByRole("region", { name: "Metrics of all results" }).waitFor();
         equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark", "theme");
         ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing sticks out to the right");
       },

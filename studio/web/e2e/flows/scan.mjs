@@ -39,7 +39,7 @@ export default async function scan({ page, step, folder, until, equal, near, ok,
   await step("the cut-off is tuned on the scan that is there", async () => {
     const ra = () => page.getByTestId("scan-ra").locator("dd").textContent();
     const before = await ra();
-    await type(page.getByTestId("scan-tune").getByRole("spinbutton", { name: "Cut-off of the texture" }), 1);
+    await type(page.getByTestId("scan-tune").getByRole("spinbutton", { name: "High-pass cut-off" }), 1);
     await until(async () => (await ra()) !== before, "another Ra");
     ok(numberIn(await ra()) < numberIn(before), "Ra falls with a higher cut-off");
   });

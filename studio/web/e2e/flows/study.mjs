@@ -85,7 +85,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
     expectComplaints();
     await open(page, "Study");
-    await session.getByText("The session goes on where it was").waitFor();
+    await session.getByText("The session continues from the same trial").waitFor();
     await page.keyboard.press("Space");
     await progress("Trial 2 of 2");
   });
@@ -108,7 +108,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     // Left in one order, right in the other: the same texture both times.
     const cells = await page.getByTestId("study-wins").locator("td").allTextContents();
     equal(cells.filter((cell) => cell === "2").length, 1, "a texture that won twice");
-    await page.getByTestId("study-summary").filter({ hasText: "2 answers, all" }).waitFor();
+    await page.getByTestId("study-summary").filter({ hasText: "2 answers, complete" }).waitFor();
     await page.getByTestId("study-export").click();
     await until(() => existsSync(join(folder, "study_p01.results.json")), "the results' file");
     equal(JSON.parse(readFileSync(join(folder, "study_p01.results.json"), "utf8")).answers, 2, "answers in it");

@@ -64,7 +64,7 @@ async function paint({ page }) {
   await page.getByTestId("paint-object").selectOption("pebble.obj");
   await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
-  await type(page.getByRole("spinbutton", { name: /Half the stroke's width/ }), 6);
+  await type(page.getByRole("spinbutton", { name: /Half-width of the stroke/ }), 6);
   for (const point of [[-33, -7, 17], [0, -11, 23], [33, -7, 17]]) {
     for (const [at, axis] of ["x", "y", "z"].entries()) await type(page.getByTestId(`paint-${axis}`), point[at]);
     await page.getByTestId("paint-add").click();

@@ -40,7 +40,7 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
       )}
       <Dialog open={open && importing === null} title="Add files" onClose={onClose}>
         <p>
-          Files are copied into the project's folder. Nothing that is there is replaced. Recordings are folders: add the whole folder. You can also drop files
+          Files are copied into the project's folder. Existing files are not replaced. Recordings are folders: add the whole folder. You can also drop files
           and folders anywhere on this window.
         </p>
         <div class="add-buttons">

@@ -13,9 +13,9 @@ import { PlanTable } from "./PlanTable";
 const kPatience_ms = 1500;
 const kRoles = [
   { role: "pose", label: "Poses", none: undefined, hint: "Positions and rotations by a tracker." },
-  { role: "imu", label: "Accelerometer", none: "The file of the poses", hint: "And its gyroscope, if they are in one file." },
-  { role: "gyro", label: "Gyroscope", none: "The file of the accelerometer", hint: "" },
-  { role: "force", label: "Force", none: "None, or in another of the files", hint: "" },
+  { role: "imu", label: "Accelerometer", none: "File of the poses", hint: "It may contain the gyroscope as well." },
+  { role: "gyro", label: "Gyroscope", none: "File of the accelerometer", hint: "" },
+  { role: "force", label: "Force", none: "None, or in one of the other files", hint: "" },
 ] as const;
 const kUp = [{ value: "", label: "found by gravity" }, "x", "y", "z", "-x", "-y", "-z"];
 const kEuler = [{ value: "", label: "found by the gyroscope" }, "xyz", "xzy", "yxz", "yzx", "zxy", "zyx"];
@@ -50,7 +50,7 @@ export function ImportDialog({ first, onClose, onDone }: { first: string; onClos
           <Button
             kind="primary"
             disabled={!ready}
-            hint={ready ? undefined : "First every fault named above must be mended."}
+            hint={ready ? undefined : "Correct every fault named above first."}
             testId="import-write"
             onClick={async () => onDone((await call<{ recording: string }>("import.write", { files, settings, name })).recording)}
           >
@@ -65,7 +65,7 @@ export function ImportDialog({ first, onClose, onDone }: { first: string; onClos
         ))}
       </div>
       <div class="import-settings">
-        <Select label="Axis that points up" value={settings["mapping.up"] ?? ""} options={kUp} onChange={(value) => set("mapping.up", value)} testId="import-up" />
+        <Select label="Upward axis" value={settings["mapping.up"] ?? ""} options={kUp} onChange={(value) => set("mapping.up", value)} testId="import-up" />
         <Select label="Order of Euler angles" value={settings["mapping.euler"] ?? ""} options={kEuler} onChange={(value) => set("mapping.euler", value)} />
         <Select
           label="Clocks of the files"
@@ -73,7 +73,7 @@ export function ImportDialog({ first, onClose, onDone }: { first: string; onClos
           options={[{ value: "", label: "one, if their times overlap" }, "one", "separate"]}
           onChange={(value) => set("mapping.clocks", value)}
         />
-        <TextField label="Sensor's axes that are the body's" value={settings["mapping.imu_axes"] ?? ""} placeholder="x,y,z" onChange={(value) => set("mapping.imu_axes", value)} />
+        <TextField label="Sensor axes in the body frame" value={settings["mapping.imu_axes"] ?? ""} placeholder="x,y,z" onChange={(value) => set("mapping.imu_axes", value)} />
       </div>
       {fault && <p class="empty" role="alert">{fault}</p>}
       {plan?.files.map((file) => <PlanTable key={file.role} file={file} onChange={(number, by) => change(file, number, by)} />)}

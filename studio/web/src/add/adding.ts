@@ -18,9 +18,9 @@ export const stopAdding = (): void => void (stopped = true);
 
 /** Adds them; what went wrong is shown to the user, and nothing was added then. */
 export async function add(choice: Choice): Promise<void> {
-  if (adding.value) return say("Files are being added already.", "Wait until they are there.");
+  if (adding.value) return say("Files are being added already.", "Wait until they are added.");
   const { files, hidden } = choice;
-  if (files.length === 0) return say(hidden > 0 ? "Hidden files are not added." : "There is no file in this.");
+  if (files.length === 0) return say(hidden > 0 ? "Hidden files are not added." : "This contains no files.");
   stopped = false;
   adding.value = { files: files.length, fraction: 0 };
   try {

@@ -9,7 +9,7 @@ export function Help({ open, onClose }: { open: boolean; onClose(): void }) {
       <p>{route.value.purpose}</p>
       <p class="help-general">
         Tab goes to the next control. In a plot that has the focus <kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move and <kbd>0</kbd> shows
-        all; dragging zooms, a double click shows all. In a 3D view the arrows turn, <kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>0</kbd> fits and <kbd>1</kbd>{" "}
+        all; dragging zooms, and a double click shows all. In a 3D view the arrows rotate, <kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>0</kbd> fits and <kbd>1</kbd>{" "}
         to <kbd>6</kbd> choose a side.
       </p>
       {keyGroups.value.map((group, index) => (

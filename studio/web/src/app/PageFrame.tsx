@@ -33,7 +33,7 @@ function Failure({ title, words, again }: { title: string; words: string; again(
     <div class="page-empty" role="alert">
       <h1>{title}</h1>
       <p>{words}</p>
-      <p>What you have decided is kept by the server and is not lost.</p>
+      <p>The server has kept your choices; nothing is lost.</p>
       <Button onClick={again}>Try again</Button>
     </div>
   );

@@ -32,8 +32,8 @@ export function Sessions({ open, onClose }: { open: boolean; onClose(): void }) 
   return (
     <Dialog open={open} title="Sessions" onClose={onClose}>
       <p>
-        Browsers that have opened this studio's address. A closed one can open the address again; <code>asperity studio --new-token</code> in a terminal
-        ends the address too.
+        Browsers that opened this studio's address. A browser can open the address again after you close its session. To make the address invalid, enter{" "}
+        <code>asperity studio --new-token</code> in a terminal.
       </p>
       <Table
         caption="Sessions"

@@ -72,8 +72,8 @@ export function Shell() {
       {(link.value === "lost" || link.value === "refused") && (
         <p class="shell-banner" role="alert">
           {link.value === "lost"
-            ? "The studio's server does not answer. Nothing is lost: the page goes on by itself when it is back. If it has to be started again, open the address that it prints."
-            : "The server does not know this browser. Open the address that asperity studio has printed last; all that you have decided is there."}
+            ? "The studio's server does not answer. Nothing is lost. The page continues when the server answers again. If you restart the server, open the address that it prints."
+            : "The server does not know this browser. Open the address that asperity studio printed last. Your choices are kept."}
         </p>
       )}
       <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>

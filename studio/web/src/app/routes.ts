@@ -18,7 +18,7 @@ export const routes: readonly Route[] = [
   {
     id: "scan",
     title: "Scan",
-    purpose: "Record a surface with the probe and watch its profile grow.",
+    purpose: "Record a surface with the probe and see its profile grow.",
     key: "s",
     load: () => import("../pages/scan/ScanPage"),
   },
@@ -32,7 +32,7 @@ export const routes: readonly Route[] = [
   {
     id: "align",
     title: "Align",
-    purpose: "Lay a scan path onto a mesh.",
+    purpose: "Register a scan path to a mesh.",
     key: "a",
     load: () => import("../pages/align/AlignPage"),
   },
@@ -53,7 +53,7 @@ export const routes: readonly Route[] = [
   {
     id: "study",
     title: "Study",
-    purpose: "Let people compare and rate textures, blind and in random order, and log what they say.",
+    purpose: "Let people compare and rate textures, blind and in random order, and log their answers.",
     key: "u",
     load: () => import("../pages/study/StudyPage"),
   },

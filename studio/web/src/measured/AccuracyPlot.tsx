@@ -18,12 +18,12 @@ export function AccuracyPlot({ measured }: { measured: Measured }) {
   );
   return (
     <Plot
-      label="Measured and true profile, aligned and band-passed alike"
+      label="Measured and true profile, aligned and with the same band-pass"
       x={x}
       series={series}
-      xAxis={{ label: "Way along the truth", unit: "mm" }}
+      xAxis={{ label: "Path length of the truth", unit: "mm" }}
       yAxis={{ label: "Height in the band", unit: "µm" }}
-      empty="This recording knows no truth: only simulated ones, and those of a known artefact, do."
+      empty="This recording has no truth. Only simulated recordings and those of a known artefact have one."
       testId="plot-accuracy"
     />
   );

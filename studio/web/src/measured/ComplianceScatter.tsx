@@ -22,11 +22,11 @@ export function ComplianceScatter({ measured }: { measured: Measured }) {
   return (
     <div class="measured-column">
       <Plot
-        label="Ratio of force to acceleration over the mean force, one point a window"
+        label="Ratio of force to acceleration over the mean force, one point per window"
         series={series}
         xAxis={{ label: "Mean force", unit: "N" }}
         yAxis={{ label: "Ratio over its mean" }}
-        empty="No window of the scan was fast and firm enough. Vary the force from light to firm while you scan."
+        empty="No window of the scan had enough speed and force. Vary the force from light to firm while you scan."
         testId="plot-compliance"
       />
       <p class="measured-note" data-testid="compliance-words">

@@ -8,7 +8,7 @@ export function ConfigTable({ measured }: { measured: Measured }) {
       <p class="measured-note">Asperity {measured.version}. The same settings as text: result.json, "config".</p>
       <Table
         savable
-        caption="The settings that were used"
+        caption="Settings of this result"
         columns={[
           { key: "path", label: "Setting", cell: (row) => <code>{row.path}</code> },
           { key: "value", label: "Value", numeric: true },

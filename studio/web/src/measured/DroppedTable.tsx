@@ -8,10 +8,10 @@ export function DroppedTable({ measured }: { measured: Measured }) {
     <div class="measured-column">
       <Table
         savable
-        caption="What was dropped or could not be had, and why"
+        caption="Data that were dropped or could not be computed, and the reason"
         columns={[
-          { key: "count", label: "How often", numeric: true, cell: (row) => String(row.count) },
-          { key: "message", label: "What, and why" },
+          { key: "count", label: "Number", numeric: true, cell: (row) => String(row.count) },
+          { key: "message", label: "What was dropped, and the reason" },
           { key: "kind", label: "Name in result.json", cell: (row) => <code>{row.kind}</code> },
         ]}
         rows={measured.dropped}
@@ -24,7 +24,7 @@ export function DroppedTable({ measured }: { measured: Measured }) {
         columns={[
           { key: "from", label: "Gap from", numeric: true, cell: (row) => millimetres(row.from_m) },
           { key: "to", label: "to", numeric: true, cell: (row) => millimetres(row.to_m) },
-          { key: "why", label: "Why" },
+          { key: "why", label: "Reason" },
         ]}
         rows={measured.gaps}
         empty="The profile has no gaps."

@@ -8,7 +8,7 @@ export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFi
   const shown = figureGroups(figures).filter((group) => !groups || groups.includes(group.name));
   return (
     <div class="measured-figures" data-testid="figures">
-      <TableSave caption="Figures" rows={() => figureRows(shown.flatMap((group) => group.figures))} testId="figures-save" />
+      <TableSave caption="Metrics" rows={() => figureRows(shown.flatMap((group) => group.figures))} testId="figures-save" />
       {shown.map((group) => (
         <section key={group.name}>
           <h3>{group.name}</h3>

@@ -26,10 +26,10 @@ export function ProfilePlot({ measured, what, syncKey = "profile" }: ProfilePlot
       label={what === "height" ? "Height over the base shape along the path" : "Texture, the high-passed height, along the path"}
       x={x}
       series={series}
-      xAxis={{ label: "Way", unit: "mm" }}
+      xAxis={{ label: "Path length", unit: "mm" }}
       yAxis={{ label: what === "height" ? "Height" : "Texture", unit: "µm" }}
       syncKey={syncKey}
-      empty="No profile: see what was dropped."
+      empty="No profile. The tab Dropped states the reason."
       yAxisRoom_px={kAxisRoom_px}
       testId={`plot-${what}`}
       legend

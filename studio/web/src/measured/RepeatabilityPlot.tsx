@@ -39,23 +39,23 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
   return (
     <div class="measured-column">
       <div class="measured-bar">
-        <Toggle label="One below the other" on={stacked} onChange={setStacked} testId="stacked" />
+        <Toggle label="Stacked" on={stacked} onChange={setStacked} testId="stacked" />
         <p class="measured-note">
-          Band {number(low, 2)} to {number(high, 3)}{"\u202f"}cycles/mm; each scan is shifted as a whole onto the first. {spread && `Spread of the heights: ${figureWords(spread)} RMS.`}
+          Band {number(low, 2)} to {number(high, 3)}{"\u202f"}cycles/mm. Each scan is shifted as a whole to match the first. {spread && `Spread of the heights: ${figureWords(spread)} RMS.`}
         </p>
       </div>
       <Plot
         label={`Profiles of ${scans.length} scans, aligned`}
         x={x}
         series={series}
-        xAxis={{ label: "Way along the first", unit: "mm" }}
+        xAxis={{ label: "Path length of the first", unit: "mm" }}
         yAxis={{ label: stacked ? "Height in the band, shifted" : "Height in the band", unit: "µm" }}
-        empty="The profiles have no stretch in common."
+        empty="The profiles have no section in common."
         testId="plot-repeatability"
       />
       <Table
         savable
-        caption="The scans, how they agree with the first, and the mean of all with its standard deviation"
+        caption="The scans, their agreement with the first, and the mean of all with its standard deviation"
         columns={[
           { key: "name", label: "Scan", cell: (row, index) => (index < scans.length ? `${index + 1}\u00a0${row.name}` : <strong>{row.name}</strong>) },
           { key: "correlation", label: "Correlation", numeric: true },

@@ -86,7 +86,7 @@ interface ColourKeyProps {
 
 /** What the colours mean. */
 function ColourKey({ low, high, unit, words }: ColourKeyProps) {
-  if (low === null || high === null) return <p class="measured-note">The recording has no such values.</p>;
+  if (low === null || high === null) return <p class="measured-note">The recording does not have these values.</p>;
   const stops = [0, 0.25, 0.5, 0.75, 1].map(cssColour).join(",");
   return (
     <div class="measured-key">

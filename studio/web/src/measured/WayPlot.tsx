@@ -18,7 +18,7 @@ export function WayPlot({ measured, what }: { measured: Measured; what: keyof ty
       label={`${label} along the path`}
       x={x}
       series={series}
-      xAxis={{ label: "Way", unit: "mm" }}
+      xAxis={{ label: "Path length", unit: "mm" }}
       yAxis={{ label, unit }}
       syncKey="profile"
       yAxisRoom_px={kAxisRoom_px}

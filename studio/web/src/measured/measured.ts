@@ -67,7 +67,7 @@ const NONE = new Float32Array(0);
 
 /** The block's parts by name. Throws for a block of another kind. */
 export function measuredOf(block: Block): Measured {
-  if (block.kind !== "measured") throw new Error(`"${block.kind}" holds no measurement`);
+  if (block.kind !== "measured") throw new Error(`"${block.kind}" contains no measurement`);
   const { head } = block;
   const { result } = head;
   return {

@@ -39,7 +39,7 @@ let pointerSequence = 0;
 export function call<T = any>(name: string, args: Record<string, unknown> = {}): Promise<T> {
   return new Promise((resolve, reject) => {
     if (!socket || socket.readyState !== WebSocket.OPEN) {
-      reject(new Refusal("The studio's server does not answer.", "Is `asperity studio` still running? The page goes on by itself when it is back."));
+      reject(new Refusal("The studio's server does not answer.", "Check that `asperity studio` still runs. The page continues when the server answers again."));
       return;
     }
     const id = nextId++;
@@ -164,7 +164,7 @@ function open(): void {
 
 /** No answer will come to what has been asked. */
 function giveUp(): void {
-  for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page goes on by itself when it is back."));
+  for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page continues when the server answers again."));
   waiting.clear();
 }
 

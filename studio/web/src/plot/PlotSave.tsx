@@ -14,7 +14,7 @@ const kSize = { width: 800, height: 420 };
 export function PlotSave({ plot, shown, range }: { plot: PlotProps; shown: readonly Series[]; range(): Range | null }) {
   const svg = (): string => {
     const over = range();
-    if (!over) throw new Error("There is nothing to save yet.");
+    if (!over) throw new Error("Nothing can be saved yet.");
     return plotSvg({ ...plot, series: shown }, over, {
       ...kSize,
       background: themeColour("--panel"),
@@ -33,7 +33,7 @@ export function PlotSave({ plot, shown, range }: { plot: PlotProps; shown: reado
         { words: "Save as SVG", run: () => saveFile(`${name}.svg`, svg(), "image/svg+xml") },
         { words: "Save as PNG", run: async () => saveFile(`${name}.png`, await png(), "image/png") },
         { words: "Save values as CSV", run: () => saveFile(`${name}.csv`, plotCsv(plot), "text/csv") },
-        { words: "Copy the picture", run: async () => copyPicture(await png()) },
+        { words: "Copy the image", run: async () => copyPicture(await png()) },
         { words: "Copy the values", run: () => copyText(plotCsv(plot)) },
       ]}
     />

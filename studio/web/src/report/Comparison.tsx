@@ -10,10 +10,10 @@ export function Comparison({ results }: { results: Result[] }) {
       <h2>Side by side</h2>
       <Table<ComparedRow>
         savable
-        caption="Figures of all results"
+        caption="Metrics of all results"
         columns={[
           { key: "group", label: "Group", cell: (row: ComparedRow, index: number) => (rows[index - 1]?.group === row.group ? "" : row.group) },
-          { key: "label", label: "Figure" },
+          { key: "label", label: "Metric" },
           ...results.map((result, index) => ({ key: `${index}`, label: result.name, numeric: true, cell: (row: ComparedRow) => row.values[index] ?? "–" })),
         ]}
         rows={rows}

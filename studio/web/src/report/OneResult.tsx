@@ -42,7 +42,7 @@ export function OneResult({ measured }: { measured: Measured }) {
         )}
       </div>
       {has("compared_s_m") && (
-        <Drawing title="Against the truth">
+        <Drawing title="Comparison with the truth">
           <AccuracyPlot measured={measured} />
         </Drawing>
       )}

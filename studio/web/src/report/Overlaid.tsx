@@ -6,7 +6,7 @@ import { Drawing } from "./Drawing";
 import type { Result } from "./result";
 
 const kColours: SeriesColour[] = [1, 2, 3, 4, 5, 6, 7, 8];
-const kWay = { label: "Way", unit: "mm" };
+const kWay = { label: "Path length", unit: "mm" };
 const kPlots = [
   { title: "Texture", array: "profile_texture_m", factor: 1e6, unit: "µm" },
   { title: "Height", array: "profile_height_m", factor: 1e6, unit: "µm" },
@@ -25,7 +25,7 @@ export function Overlaid({ results }: { results: Result[] }) {
   return (
     <>
       {plots.map(({ title, unit, series }) => (
-        <Drawing key={title} title={title} note={title === "Texture" ? "The height after the high-pass, each from where its path begins." : undefined}>
+        <Drawing key={title} title={title} note={title === "Texture" ? "The height after the high-pass, each from the start of its path." : undefined}>
           <Plot label={`${title} of all results along the path`} series={series} xAxis={kWay} yAxis={{ label: title, unit }} syncKey="report" legend />
         </Drawing>
       ))}

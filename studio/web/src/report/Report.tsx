@@ -24,7 +24,7 @@ export function Report({ results }: { results: Result[] }) {
         <ResultDetails key={result.name} result={result} named={!one} />
       ))}
       <footer class="report-foot">
-        <p>Measured by Asperity {versions(results)}. The files beside this report hold the same numbers in full; `asperity report` makes it again from them.</p>
+        <p>Measured by Asperity {versions(results)}. The files next to this report contain the same values in full; `asperity report` makes the report from them.</p>
       </footer>
     </main>
   );

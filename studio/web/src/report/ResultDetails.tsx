@@ -11,8 +11,8 @@ export function ResultDetails({ result, named }: { result: Result; named: boolea
     <>
       {named && <h2 class="report-name">{result.name}</h2>}
       {!named && <FigureGroups figures={result.measured.figures} />}
-      <section class="report-drawing" aria-label="What was dropped and why">
-        <h2>What was dropped and why</h2>
+      <section class="report-drawing" aria-label="Dropped data and the reasons">
+        <h2>Dropped data and the reasons</h2>
         <DroppedTable measured={result.measured} />
       </section>
       <details class="report-drawing">
@@ -26,7 +26,7 @@ export function ResultDetails({ result, named }: { result: Result; named: boolea
 /** What the data did not allow is left out. */
 function FigureGroups({ figures }: { figures: readonly MeasuredFigure[] }) {
   return (
-    <section class="report-groups" aria-label="Figures">
+    <section class="report-groups" aria-label="Metrics">
       {figureGroups(figures.filter((figure) => figure.value !== null)).map((group) => (
         <section key={group.name} class="report-group">
           <h2>{group.name}</h2>

@@ -14,7 +14,7 @@ export function saveFile(name: string, content: Blob | string, type: string): vo
 
 /** Throws where a browser has no clipboard for pages without encryption. */
 function clipboard(): Clipboard {
-  if (!navigator.clipboard) throw new Error("This browser gives the clipboard to encrypted pages and to pages of this machine only. Save a file instead.");
+  if (!navigator.clipboard) throw new Error("This browser allows the clipboard only on encrypted pages and on pages of this machine. Save a file instead.");
   return navigator.clipboard;
 }
 

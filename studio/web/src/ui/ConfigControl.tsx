@@ -42,7 +42,7 @@ function NumbersControl({ field, onChange }: { field: ConfigField; onChange(valu
   const numbers = field.value as number[];
   const take = (text: string) => {
     const typed = text.split(/[\s,;[\]]+/).filter(Boolean).map(parseNumber);
-    if (typed.includes(null)) return setProblem("Numbers, with blanks or commas between them.");
+    if (typed.includes(null)) return setProblem("Numbers, separated by spaces or commas.");
     setProblem("");
     onChange(`[${typed.join(",")}]`);
   };

@@ -28,7 +28,7 @@ export function ConfigForm({ fields, onChange, disabled }: ConfigFormProps) {
           Changed only ({changed})
         </label>
       </div>
-      {groups.length === 0 && <p class="empty">No setting has that in its name or description.</p>}
+      {groups.length === 0 && <p class="empty">No setting has this text in its name or description.</p>}
       {groups.map((group) => (
         <fieldset key={group.name} class="config-group" disabled={disabled}>
           <legend>{group.name}</legend>

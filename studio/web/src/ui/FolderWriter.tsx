@@ -34,7 +34,7 @@ export function FolderWriter<Written>({ folder, button, hint, disabled, write, c
   return (
     <>
       <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
+      <Toggle label="Replace an existing folder" on={replace} onChange={setReplace} />
       <Button kind="primary" onClick={onClick} disabled={name === "" || disabled} hint={hint} testId={buttonTestId}>
         {button}
       </Button>

@@ -53,7 +53,7 @@ export function Viewport({ label, onReady, up = "-y", views = true, children, te
     return (
       <div class="viewport" data-testid={testId}>
         <p class="viewport-message">
-          This browser shows no 3D pictures (WebGL is missing or turned off). All else on this page works; the numbers and plots are the same.
+          This browser cannot show 3D views, because WebGL is missing or disabled. The rest of this page works; its values and plots are the same.
         </p>
       </div>
     );
@@ -64,7 +64,7 @@ export function Viewport({ label, onReady, up = "-y", views = true, children, te
         ref={canvas}
         tabIndex={0}
         role="img"
-        aria-label={`${label}. Keys: arrows turn, plus and minus zoom, 0 fits, 1 to 6 choose a side.`}
+        aria-label={`${label}. Keys: arrows rotate, plus and minus zoom, 0 fits, 1 to 6 choose a side.`}
         onKeyDown={(event) => {
           if (!view.current || event.ctrlKey || event.altKey || event.metaKey || !moved(view.current, event.key)) return;
           event.preventDefault();

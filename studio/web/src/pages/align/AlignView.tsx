@@ -57,19 +57,19 @@ export function AlignView() {
 
   useKeys([
     { key: "t", label: "move the path with the gizmo", run: () => choose("translate") },
-    { key: "r", label: "turn the path with the gizmo", run: () => choose("rotate") },
+    { key: "r", label: "rotate the path with the gizmo", run: () => choose("rotate") },
     { key: "p", label: "pick pairs of points", run: () => choose("pick") },
-    { key: "escape", label: "put the tool away", run: () => (half.value ? (half.value = null) : choose("look")) },
-    ...viewNames.map((name, index) => ({ key: `${index + 1}`, label: `see it from the ${name}`, run: () => view.current?.setView(name) })),
+    { key: "escape", label: "deselect the tool", run: () => (half.value ? (half.value = null) : choose("look")) },
+    ...viewNames.map((name, index) => ({ key: `${index + 1}`, label: `view from the ${name}`, run: () => view.current?.setView(name) })),
   ]);
 
   return (
     <>
       <div class="align-tools" role="group" aria-label="Tools">
-        <ToolButton name="look" words="Look" hint="Drag turns the view (Esc)" />
+        <ToolButton name="look" words="Look" hint="Drag rotates the view (Esc)" />
         <ToolButton name="translate" words="Move" hint="Arrows move the path (T)" />
-        <ToolButton name="rotate" words="Turn" hint="Rings turn the path about its middle (R)" />
-        <ToolButton name="pick" words="Pick" hint="Click a point of the path, then where it belongs on the mesh (P)" />
+        <ToolButton name="rotate" words="Rotate" hint="Rings rotate the path about its centre (R)" />
+        <ToolButton name="pick" words="Pick" hint="Click a point of the path, then its point on the mesh (P)" />
         <Button pressed={translucent} onClick={() => setTranslucent(!translucent)} hint="See the path through the mesh">
           See through
         </Button>
@@ -121,7 +121,7 @@ function Notice() {
       {(showing.value === "best" || showing.value === "runner_up") && (
         <>
           <Button kind="primary" onClick={() => take(showing.value as "best" | "runner_up")}>
-            Take this pose
+            Accept this pose
           </Button>
           <Button onClick={() => (showing.value = "placed")}>Back</Button>
         </>
@@ -135,9 +135,9 @@ function noticeWords(): string {
   const { phases, phase, poses, rms_m } = iterations.value;
   switch (showing.value) {
     case "best":
-      return "Shown: the registered pose, not taken yet.";
+      return "Shown: the registered pose, not accepted yet.";
     case "runner_up":
-      return "Shown: the runner-up, not taken yet.";
+      return "Shown: the runner-up, not accepted yet.";
     case "iteration":
       if (poses.length === 0) return "Registering …";
       return [
@@ -146,7 +146,7 @@ function noticeWords(): string {
       ].join(": ");
     case "placed":
       if (tool.value !== "pick") return "";
-      return half.value ? "Now click where this point belongs on the mesh." : "Click a point of the path.";
+      return half.value ? "Now click the same point on the mesh." : "Click a point of the path.";
   }
 }
 

@@ -21,7 +21,7 @@ export function AreaPanel() {
   useEffect(() => void call<string[]>("align.registered").then(setFolders, complain), [entries.value]);
   useEffect(() => void call<ConfigField[]>("align.area_config").then(setFields, complain), [JSON.stringify(area.config)]);
   const job = jobs.value.find(({ title }) => title.startsWith("Area of "));
-  const lacks = area.folder ? "" : "Choose a folder that a registration of several scans has written.";
+  const lacks = area.folder ? "" : "Choose a folder that a registration of several scans wrote.";
   const options = [
     { value: "", label: folders.length ? "Choose …" : "None in the folder", disabled: true },
     ...folders,
@@ -35,9 +35,9 @@ export function AreaPanel() {
   return (
     <Panel title="Area of many scans" testId="align-area">
       <Select label="Registered scans" wide value={area.folder} options={options} onChange={(folder) => void change({ ...area, folder }, `make an area of ${folder}`)} testId="align-area-folder" />
-      <p class="field-hint">Strokes over a patch of the mesh become one height map. Strokes that cross, or lie beside one another, determine it.</p>
+      <p class="field-hint">Makes one height map of the strokes over a patch of the mesh. Strokes that cross or are adjacent determine it.</p>
       <div class="buttons">
-        <Button kind="primary" onClick={() => makeArea(area)} disabled={lacks !== "" || makingArea.value} hint={lacks || "Finds the patch, lays it in a plane, solves for the heights"} testId="align-area-run">
+        <Button kind="primary" onClick={() => makeArea(area)} disabled={lacks !== "" || makingArea.value} hint={lacks || "Finds the patch, unrolls it into a plane, and solves for the heights"} testId="align-area-run">
           Make area
         </Button>
         {makingArea.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}

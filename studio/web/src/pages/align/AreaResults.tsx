@@ -28,7 +28,7 @@ export function AreaResults() {
           <Lamp state={state} word={word} />
           {result.verdicts.length > 0 && <VerdictList verdicts={result.verdicts} />}
         </div>
-        {result.patch.apart.length > 0 && <p>Not on the patch of the others: {result.patch.apart.join(", ")}.</p>}
+        {result.patch.apart.length > 0 && <p>Outside the patch of the others: {result.patch.apart.join(", ")}.</p>}
         <FiguresTable figures={areaFigures(result)} />
       </Panel>
       {result.trustworthy && <AreaWrite number={made.block.head.number} stale={made.key !== areaKey(align.value?.area)} />}
@@ -54,7 +54,7 @@ function AreaWrite({ number, stale }: { number: number; stale: boolean }) {
       <FolderWriter
         folder="area"
         button="Write area"
-        hint={stale ? "Make the area again first: scans or settings were changed." : "The scene with the area, area.json, and the height, normal and σ map as pictures"}
+        hint={stale ? "Make the area again first: scans or settings were changed." : "The scene with the area, area.json, and the height, normal and σ maps as images"}
         disabled={stale}
         write={(name, replace) => call<Written>("align.area_write", { name, replace, number })}
         buttonTestId="align-area-write-button"
@@ -65,7 +65,7 @@ function AreaWrite({ number, stale }: { number: number; stale: boolean }) {
             <p>Written to {written.name}, with {written.files.join(", ")}.</p>
             <Button onClick={() => feel(written.scene)}>Open in Feel</Button>
             <details>
-              <summary>The same on the command line</summary>
+              <summary>Command line for the same result</summary>
               <code class="align-command">{written.command}</code>
             </details>
           </>

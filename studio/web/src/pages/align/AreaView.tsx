@@ -17,12 +17,12 @@ const kStops = 9;
 export function AreaView() {
   const made = madeArea.value;
   if (makingArea.value) return <p class="empty">The area is being made …</p>;
-  if (areaFault.value) return <p class="empty" role="alert">There is no area: {areaFault.value}</p>;
+  if (areaFault.value) return <p class="empty" role="alert">The area could not be made: {areaFault.value}</p>;
   if (!made) {
     return (
       <div class="page-empty">
-        <h2>No area is made yet</h2>
-        <p>Register several scans that cross or lie beside one another on a patch of the mesh, and write the result. Then choose its folder at the left.</p>
+        <h2>No area yet</h2>
+        <p>Register several scans that cross or are adjacent on a patch of the mesh, and write the result. Then choose its folder at the left.</p>
       </div>
     );
   }
@@ -30,7 +30,7 @@ export function AreaView() {
   return (
     <>
       {made.key !== areaKey(align.value?.area) && <p class="measured-note" role="status">Scans or settings were changed since. Make the area again.</p>}
-      {map ? <Shown block={made.block} map={map} /> : <p class="empty">There is no map: its verdicts at the right state why.</p>}
+      {map ? <Shown block={made.block} map={map} /> : <p class="empty">No map could be made. The verdicts at the right state why.</p>}
     </>
   );
 }
@@ -101,7 +101,7 @@ function Shown({ block, map }: { block: Block; map: AreaMap }) {
           />
           <figcaption>
             {millimetres(1e-3 * width_mm, 3)} by {millimetres(1e-3 * height_mm, 3)}, as seen from outside; to the right is x, the strokes' common direction.
-            {map.every > 1 && ` One of every ${map.every} points a side is drawn.`}
+            {map.every > 1 && ` One of every ${map.every} points per side is drawn.`}
           </figcaption>
         </figure>
         <Viewport

@@ -40,8 +40,8 @@ export function FilesPanel() {
         testId="align-unit"
       />}
       <fieldset class="align-paths">
-        <legend>Scans, all in one world</legend>
-        {shown.length === 0 && <p class="empty">There is no recording and no CSV of a path in the folder.</p>}
+        <legend>Scans, all in one world frame</legend>
+        {shown.length === 0 && <p class="empty">The folder contains no recording and no CSV file of a path.</p>}
         {shown.map(({ kind, name }) => (
           <label key={name}>
             <input
@@ -52,7 +52,7 @@ export function FilesPanel() {
             <span class="align-name" title={name}>
               {name}
             </span>
-            <span class="align-kind">{kind === "gone" ? "not there" : kind}</span>
+            <span class="align-kind">{kind === "gone" ? "missing" : kind}</span>
           </label>
         ))}
       </fieldset>
@@ -62,7 +62,7 @@ export function FilesPanel() {
         none="The scan's own"
         value={section.textures[0] ?? ""}
         onChange={(name) => edit("/align/textures", name ? [name] : [], "choose the texture")}
-        hint="What is laid along the path."
+        hint="Texture along the path."
       />
       {points !== undefined && triangles !== undefined && (
         <p class="field-hint" data-testid="align-opened">

@@ -23,14 +23,14 @@ export function HandPanel() {
   return (
     <Panel title="By hand" collapsible testId="align-hand">
       <Select
-        label="Turns are about"
+        label="Rotate about"
         value={about.value}
         options={[
-          { value: "middle", label: "the path's middle" },
+          { value: "middle", label: "the path's centre" },
           { value: "origin", label: "the world's origin" },
         ]}
         wide
-        hint={about.value === "middle" ? "x, y, z: where the path's middle lies in the mesh's frame" : "The six numbers of asperity register --align"}
+        hint={about.value === "middle" ? "x, y, z: position of the path's centre in the mesh's frame" : "The six numbers of asperity register --align"}
         onChange={(what) => turnAbout(what as "middle" | "origin")}
         testId="align-about"
       />
@@ -56,7 +56,7 @@ export function HandPanel() {
       {AXES.map((axis, index) => (
         <Slider
           key={axis}
-          label={`turn ${axis}`}
+          label={`rotate ${axis}`}
           value={rounded(six?.turn_deg[index] ?? 0, 0.01)}
           low={-TURN_LIMITS_deg[index]!}
           high={TURN_LIMITS_deg[index]!}
@@ -68,11 +68,11 @@ export function HandPanel() {
         />
       ))}
       <Button
-        onClick={() => edit("/align/T_mesh_world", null, "begin anew")}
+        onClick={() => edit("/align/T_mesh_world", null, "reset the pose")}
         disabled={missing.value !== "" || !align.value?.T_mesh_world}
-        hint={missing.value || "The path's middle on the mesh's, unturned"}
+        hint={missing.value || "Moves the path's centre to that of the mesh, without rotation"}
       >
-        Begin anew
+        Reset pose
       </Button>
     </Panel>
   );

@@ -38,7 +38,7 @@ export function IterationStrip() {
           marks={marks}
           onPick={(x) => goTo(Math.round(x) - 1)}
           legend
-          empty={running.value ? "Registering …" : "Run a registration: each of its iterations is shown here."}
+          empty={running.value ? "Registering …" : "Run a registration to see its iterations here."}
         />
         <div class="align-scrub">
           <IconButton

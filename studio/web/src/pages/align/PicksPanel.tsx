@@ -21,18 +21,18 @@ export function PicksPanel() {
     const there = toMesh(pose, path);
     return length(Math.hypot(...there.map((value, axis) => value - mesh[axis]!)), 3);
   };
-  const lacks = missing.value || (picks.length < 3 ? "Needs three pairs or more." : "");
+  const lacks = missing.value || (picks.length < 3 ? "Pick three pairs or more." : "");
   const lay = async () => {
     const { rms_m } = await call("align.pick");
     showing.value = "placed";
-    say(`The picked points lie on each other to ${length(rms_m, 3)} RMS.`);
+    say(`The picked points agree to ${length(rms_m, 3)} RMS.`);
   };
   const remove = (index: number) => edit("/align/picks", picks.filter((_, other) => other !== index), "remove a pair of points");
   return (
     <Panel title={`By points (${picks.length})`} collapsible testId="align-picks">
       {half.value && (
         <p class="field-hint">
-          Pair {picks.length + 1} waits for its point on the mesh. <Button onClick={() => (half.value = null)}>Leave it</Button>
+          Pair {picks.length + 1} waits for its point on the mesh. <Button onClick={() => (half.value = null)}>Cancel pair</Button>
         </p>
       )}
       <Table
@@ -40,7 +40,7 @@ export function PicksPanel() {
         columns={[
           { key: "number", label: "", cell: (_, index) => index + 1 },
           { key: "mesh", label: "On the mesh", cell: ({ mesh }) => pointWords(mesh) },
-          { key: "apart", label: "Apart", numeric: true, cell: ({ path, mesh }) => apart(path, mesh) },
+          { key: "apart", label: "Distance", numeric: true, cell: ({ path, mesh }) => apart(path, mesh) },
           {
             key: "remove",
             label: "",
@@ -48,11 +48,11 @@ export function PicksPanel() {
           },
         ]}
         rows={picks}
-        empty="Press Pick, click a point of the path, then where it belongs."
+        empty="Press Pick, click a point of the path, then its point on the mesh."
       />
       <div class="buttons">
         <Button kind="primary" onClick={lay} disabled={lacks !== ""} hint={lacks || undefined} testId="align-lay">
-          Lay them on each other
+          Align pairs
         </Button>
         <Button onClick={() => edit("/align/picks", [], "remove all pairs")} disabled={picks.length === 0}>
           Remove all

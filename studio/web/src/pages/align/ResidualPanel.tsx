@@ -15,8 +15,8 @@ export function ResidualPanel() {
       <Figures>
         <Figure label="Mean" value={now?.mean_m} factor={1e3} unit="mm" digits={3} testId="align-mean" />
         <Figure label="RMS" value={now?.rms_m} factor={1e3} unit="mm" digits={3} />
-        <Figure label="Most" value={now?.most_m} factor={1e3} unit="mm" digits={3} />
-        <Figure label="σ of a distance, median" value={now?.median_sigma_m} factor={1e3} unit="mm" digits={3} hint="As the scans state it; the error of the pose and the relief are not in it" />
+        <Figure label="Maximum" value={now?.most_m} factor={1e3} unit="mm" digits={3} />
+        <Figure label="σ of a distance, median" value={now?.median_sigma_m} factor={1e3} unit="mm" digits={3} hint="As the scans state it, without the error of the pose and the relief" />
         <Figure label="RMS over σ" value={now?.rms_sigma} digits={3} hint="About 1 on a smooth mesh that fits; a relief makes it larger" testId="align-rms-sigma" />
       </Figures>
       <div class="align-histogram">

@@ -13,7 +13,7 @@ import { ghost, isMoved, isRegistered, judged, missing, register, result, runnin
 export function RunPanel() {
   const found = result.value;
   const job = runningJob.value;
-  const waits = job?.title.startsWith("Registering again") ? "What was found before is worked out again …" : "Registering …";
+  const waits = job?.title.startsWith("Registering again") ? "Repeating the earlier registration …" : "Registering …";
   return (
     <Panel title="Registration" testId="align-run">
       <div class="buttons">
@@ -21,7 +21,7 @@ export function RunPanel() {
           kind="primary"
           onClick={() => register(true)}
           disabled={missing.value !== "" || running.value}
-          hint={missing.value || "ICP from where the path lies now"}
+          hint={missing.value || "ICP from the current position of the path"}
           testId="align-run-here"
         >
           From here
@@ -40,7 +40,7 @@ export function RunPanel() {
         {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? waits : missing.value || "Not run yet."}</p>}
       </div>
       {isMoved.value && <MovedVerdict />}
-      {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
+      {isRegistered.value && <p class="field-hint">The path is at a registered pose.</p>}
     </Panel>
   );
 }
@@ -48,7 +48,7 @@ export function RunPanel() {
 /** The verdict on the pose that the path was moved to: the registration's own is about another. */
 function MovedVerdict() {
   const now = judged.value;
-  if (!now) return <p class="field-hint">The path was moved away from the registered pose. Its new pose is being judged …</p>;
+  if (!now) return <p class="field-hint">The path was moved away from the registered pose. The new pose is being checked …</p>;
   return (
     <div class={now.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-moved-verdict">
       <strong>{now.trustworthy ? "Path as placed: valid. " : "Path as placed: invalid. "}</strong>
@@ -69,7 +69,7 @@ function Verdict({ found }: { found: RunResult }) {
         </strong>
         {verdictWords(found)}
         <details open={!found.trustworthy}>
-          <summary>In full</summary>
+          <summary>Full verdict</summary>
           {found.verdict}
           {(found.verdicts?.length ?? 0) > 0 && <VerdictList verdicts={found.verdicts!} />}
         </details>
@@ -92,22 +92,22 @@ function Verdict({ found }: { found: RunResult }) {
         <Figure label="Residual, RMS" value={found.rms_m} factor={1e3} unit="mm" digits={3} testId="align-rms" />
         <Figure label="Outliers" value={`${found.outliers} of ${found.points}`} />
         {other && <Figure label="Runner-up, RMS" value={other.rms_m} factor={1e3} unit="mm" digits={3} />}
-        {other && <Figure label="It is away" value={other.distance_m} factor={1e3} unit="mm" digits={3} />}
+        {other && <Figure label="Distance of the runner-up" value={other.distance_m} factor={1e3} unit="mm" digits={3} />}
       </Figures>
       <fieldset class="align-show">
         <legend>Show</legend>
-        <Choice value="placed" words="the path in its place" />
+        <Choice value="placed" words="the current pose" />
         <Choice value="best" words="the registered pose" />
         {other && <Choice value="runner_up" words="the runner-up" />}
       </fieldset>
-      {other && <Toggle label="With the other one as a ghost" on={ghost.value} onChange={(on) => (ghost.value = on)} />}
+      {other && <Toggle label="Show the other pose too" on={ghost.value} onChange={(on) => (ghost.value = on)} />}
       <div class="buttons">
         <Button onClick={() => take("best")} disabled={missing.value !== ""} hint={missing.value || undefined} testId="align-take">
-          Take the pose
+          Accept the pose
         </Button>
         {other && (
           <Button onClick={() => take("runner_up")} disabled={missing.value !== ""} hint={missing.value || undefined} testId="align-take-other">
-            Take the runner-up
+            Accept the runner-up
           </Button>
         )}
       </div>

@@ -31,7 +31,7 @@ const columns: Column<ScanRow>[] = [
 
 const kColourings: { value: Colouring; label: string }[] = [
   { value: "distance", label: "Distance to the mesh" },
-  { value: "sigma", label: "Distance in its σ" },
+  { value: "sigma", label: "Distance over its σ" },
   { value: "scan", label: "Scan" },
 ];
 
@@ -55,7 +55,7 @@ export function ScansPanel() {
         <>
           <Toggle label="Show textured areas" on={showAreas.value} onChange={(on) => (showAreas.value = on)} testId="align-areas" />
           <p class="field-hint" data-testid="align-overlap">
-            {block.shapes.laid_triangle![0]} triangles have a texture, {block.shapes.covered_triangle?.[0] ?? 0} of them several. Those are drawn dark.
+            {block.shapes.laid_triangle![0]} triangles have a texture, {block.shapes.covered_triangle?.[0] ?? 0} of them several. These are drawn dark.
           </p>
         </>
       )}

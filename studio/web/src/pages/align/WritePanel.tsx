@@ -29,7 +29,7 @@ export function WritePanel() {
   const [replace, setReplace] = useState(false);
   const [written, setWritten] = useState<Written | null>(null);
   const name = typed || `${stem || "mesh"}-aligned`;
-  const lacks = missing.value || (align.value?.T_mesh_world ? "" : "Lay the path on the mesh first: by hand, by points or by a registration.");
+  const lacks = missing.value || (align.value?.T_mesh_world ? "" : "Move the path to the mesh first: by hand, by points or by a registration.");
   const scene = isScene(mesh);
   const [apart, setApart] = useState(false);
   const into = scene && !apart;
@@ -47,8 +47,8 @@ export function WritePanel() {
   return (
     <Panel title="Write" testId="align-write">
       {scene && <Toggle label="Into another folder" on={apart} onChange={setApart} hint="Without it the scans are added to the scene." testId="align-apart" />}
-      {!into && <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />}
-      {!into && <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />}
+      {!into && <TextField label="Folder" value={name} onChange={setTyped} hint="In the project. The registration is completed from the current pose." />}
+      {!into && <Toggle label="Replace an existing folder" on={replace} onChange={setReplace} />}
       <Button
         kind="primary"
         onClick={write}
@@ -67,7 +67,7 @@ export function WritePanel() {
               Open in Feel
             </Button>
             <details>
-              <summary>The same on the command line</summary>
+              <summary>Command line for the same result</summary>
               <code class="align-command">{written.command}</code>
             </details>
           </>

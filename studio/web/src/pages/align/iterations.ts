@@ -21,9 +21,9 @@ const PHASE_WORDS: Record<string, string> = {
   annealing: "from the guess, few points",
   fit: "all points",
   restarts: "other starts, few points",
-  comparison: "rivals, all points",
+  comparison: "competing poses, all points",
   guesses: "from other guesses",
-  refinement: "slow tracker error allowed for",
+  refinement: "with the tracker's drift",
 };
 
 export const phaseWords = (name: string): string => PHASE_WORDS[name] ?? name;

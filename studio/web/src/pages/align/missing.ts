@@ -3,5 +3,5 @@ export function missingWords(chosen: { paths: readonly string[]; mesh: string } 
   const scan = (chosen?.paths.length ?? 0) > 0;
   if (!scan || !chosen?.mesh) return `Choose ${[!scan && "a scan", !chosen?.mesh && "a mesh"].filter(Boolean).join(" and ")} first.`;
   if (isOpening) return "The mesh and the scan are being opened.";
-  return isOpen ? "" : "The mesh and the scan could not be opened: choose others, or choose another and then this one again.";
+  return isOpen ? "" : "The mesh and the scan could not be opened. Choose others, or choose these again.";
 }

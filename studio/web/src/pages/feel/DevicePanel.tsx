@@ -48,21 +48,21 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
       {device?.driven && <ReplayChoice disabled={!idle} />}
       {name === "mouse" && (
         <Slider
-          label="How deep a press goes"
+          label="Press depth"
           value={depth_m}
           low={0}
           high={deepest_m}
           step={1e-4}
           factor={1e3}
           unit="mm"
-          hint="Hold the left button or Shift to press; the wheel changes this meanwhile. By keys, in the view: Page Down presses, Page Up lifts, arrows move."
+          hint="Hold the left button or Shift to press; use the wheel to change the depth. Keys in the view: Page Down presses, Page Up releases, arrows move."
           onInput={onDepth}
           testId="feel-depth"
         />
       )}
       <div class="buttons">
         {idle ? (
-          <Button kind="primary" onClick={startFeeling} disabled={nothing} hint={nothing ? "Choose what is to be felt first" : undefined} testId="feel-start">
+          <Button kind="primary" onClick={startFeeling} disabled={nothing} hint={nothing ? "Choose a scene first" : undefined} testId="feel-start">
             Start
           </Button>
         ) : (
@@ -72,8 +72,8 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
         )}
         {status?.may_command_forces &&
           (leaseIsMine.value && (idle || commandsRun()) ? (
-            <Button onClick={giveForce} hint="The force ramps to zero; another window may take it" testId="feel-give">
-              Let the force go
+            <Button onClick={giveForce} hint="The force ramps to zero, and another window can take it" testId="feel-give">
+              Release the force
             </Button>
           ) : (
             <Button onClick={takeRun} disabled={leaseIsOthers.value} testId="feel-take">
@@ -88,11 +88,11 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
 
 function Lease() {
   if (feelStatus.value && !feelStatus.value.may_command_forces) {
-    return <p class="field-hint">Forces are not commanded from here: the studio listens to other machines. Start it with --remote-force to change that.</p>;
+    return <p class="field-hint">This studio does not command forces, because other machines can reach it. Start it with --remote-force to allow forces.</p>;
   }
   if (leaseIsMine.value) return <Lamp state="good" word="this window has the force" live testId="feel-lease" />;
   if (leaseIsOthers.value) return <Lamp state="warn" word="another window has the force" live testId="feel-lease" />;
-  return <Lamp state="off" word="nobody has the force" live testId="feel-lease" />;
+  return <Lamp state="off" word="no window has the force" live testId="feel-lease" />;
 }
 
 /** What moves the point where nobody does. */

@@ -64,7 +64,7 @@ export default function FeelPage() {
       <FeelView block={block} {...depth} />
       {status?.visited && (
         <p class="viewport-empty" role="status">
-          A study is being felt on the Study page.
+          A study is running on the Study page.
         </p>
       )}
       {!block && !status?.visited && (

@@ -38,7 +38,7 @@ export function FeelPlots() {
   return (
     <>
       <Panel title="Forces" grow testId="feel-forces-plot">
-        <LivePlot label="Forces by component" buffer={forces} series={FORCES.map(({ label, colour }) => ({ label, colour, dashed: label === "to the hand" }))} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} />
+        <LivePlot label="Forces by component" buffer={forces} series={FORCES.map(({ label, colour }) => ({ label, colour, dashed: label === "on the hand" }))} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} />
       </Panel>
       <Panel
         title="Texture"
@@ -50,7 +50,7 @@ export function FeelPlots() {
               by time
             </Button>
             <Button kind="quiet" pressed={byWay} onClick={() => setByWay(true)}>
-              by way
+              by path
             </Button>
           </>
         }
@@ -74,10 +74,10 @@ function WayPlot({ trace }: { trace: WayTrace }) {
   }, [trace]);
   return (
     <Plot
-      label="Height of the texture over the way of the tip"
+      label="Height of the texture over the path length of the tip"
       x={shown.way_mm}
       series={[{ label: "height", colour: 2, y: shown.height_um }]}
-      xAxis={{ label: "way", unit: "mm" }}
+      xAxis={{ label: "path length", unit: "mm" }}
       yAxis={{ label: "height", unit: "µm" }}
       legend={false}
       empty="Stroke the surface."

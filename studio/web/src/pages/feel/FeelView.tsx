@@ -72,7 +72,7 @@ export function FeelView(props: FeelViewProps) {
   const isMouse = feelStatus.value?.device === "mouse" && commandsRun() && isOurs();
   return (
     <Viewport
-      label={isMouse ? "The scene. The pointer feels: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
+      label={isMouse ? "The scene. The pointer touches it: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
       up="z"
       views={!blind}
       testId="feel-view"
@@ -122,7 +122,7 @@ function NoForce() {
   if (status?.state !== "running" || !status.may_command_forces || commandsRun()) return null;
   return (
     <div class="feel-no-force" role="status" data-testid="feel-no-force">
-      <p>{leaseIsOthers.value ? "Another window has the force. This one shows the run." : "This window does not have the force: the run goes on, and nothing is let through to the hand."}</p>
+      <p>{leaseIsOthers.value ? "Another window has the force. This one shows the run." : "This window does not have the force. The run continues, but no force reaches the hand."}</p>
       {!leaseIsOthers.value && (
         <Button kind="primary" onClick={takeRun}>
           Take the force
@@ -137,7 +137,7 @@ function Legend() {
   void dark.value;
   const state = feelState.value;
   return (
-    <ul class="feel-legend" aria-label="Forces in the picture">
+    <ul class="feel-legend" aria-label="Forces in the view">
       {FORCES.map(({ key, label, colour }) => (
         <li key={key}>
           <svg width="22" height="10" viewBox="0 0 22 10" aria-hidden="true">

@@ -10,7 +10,7 @@ export const FORCES = [
   { key: "contact", label: "contact", colour: 1 },
   { key: "texture", label: "texture", colour: 2 },
   { key: "friction", label: "friction", colour: 3 },
-  { key: "out", label: "to the hand", colour: 4 },
+  { key: "out", label: "on the hand", colour: 4 },
 ] as const;
 
 const kArrowOfScene = 0.6; // the length of the largest force that is allowed, of the scene's radius

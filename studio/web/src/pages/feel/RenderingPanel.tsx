@@ -13,8 +13,8 @@ import { feelSection, setSetting, settingValue } from "./feelChoices";
 import { feelStatus } from "./feelStore";
 
 const QUICK = [
-  { path: "render.stiffness_N_per_m", label: "Stiffness where the scene has none", unit: "N/m", low: 50, high: 5000, logarithmic: true },
-  { path: "render.friction", label: "Friction where the scene has none", unit: "", low: 0, high: 1.5, logarithmic: false },
+  { path: "render.stiffness_N_per_m", label: "Stiffness where the scene states none", unit: "N/m", low: 50, high: 5000, logarithmic: true },
+  { path: "render.friction", label: "Friction where the scene states none", unit: "", low: 0, high: 1.5, logarithmic: false },
   { path: "render.texture.cutoff_cycles_per_mm", label: "Cut-off of textures (0: none)", unit: "cycles/mm", low: 0, high: 20, logarithmic: false },
 ];
 
@@ -36,7 +36,7 @@ export function RenderingPanel() {
           wide
           value={String(settings?.[model.path] ?? model.default)}
           options={model.choices ?? []}
-          hint="auto: each texture its own"
+          hint="auto: the model of each texture"
           onChange={(value) => attempt(() => setSetting(model.path, value))}
           testId="feel-model"
         />
@@ -49,7 +49,7 @@ export function RenderingPanel() {
       })}
       <ForceLimit />
       <Dialog title="Settings of the Feel page" open={all} onClose={() => setAll(false)}>
-        <p>Those of “render” are taken while you touch, the others when you start. Limits of the safety layer, ports and drivers are set where the studio is started.</p>
+        <p>Settings of “render” apply while you touch, the others at the next start. Limits of the safety layer, ports and drivers are set when the studio starts.</p>
         <ConfigForm fields={fields} onChange={(path, text) => void attempt(() => setSetting(path, text === null ? null : settingValue(text)))} />
       </Dialog>
     </Panel>
@@ -68,7 +68,7 @@ function ForceLimit() {
       high={most_N}
       step={most_N / 50}
       unit="N"
-      hint={`Can be lowered; at most ${most_N}\u202fN, as the studio was started.`}
+      hint={`Can be lowered; at most ${most_N}\u202fN, as set when the studio started.`}
       onInput={(next, gesture) => void attempt(() => edit("/feel/max_force_N", next, "largest force", gesture))}
       testId="feel-max-force"
     />
@@ -80,7 +80,7 @@ export function TexturesPanel({ textures, indices }: { textures: TextureHead[]; 
   const chosen = feelSection.value?.textures ?? {};
   return (
     <Panel title="Textures" collapsible>
-      {indices.length === 0 && <p class="empty">The scene has no textures: the bare surface is felt.</p>}
+      {indices.length === 0 && <p class="empty">The scene has no textures; its surface is smooth.</p>}
       {indices.map(({ index, file, texture, object }) => (
         <div key={`${object} ${index}`} class="feel-texture">
           <p>
@@ -88,11 +88,11 @@ export function TexturesPanel({ textures, indices }: { textures: TextureHead[]; 
           </p>
           {object === 0 && (
             <FilePicker
-              label="In its place"
+              label="Replace by"
               kinds={["texture"]}
               value={chosen[index] ?? ""}
-              none="Its own"
-              onChange={(name) => attempt(() => edit(`/feel/textures/${index}`, name || null, name ? `texture ${index}: ${name}` : `texture ${index}: its own`))}
+              none="The scene's texture"
+              onChange={(name) => attempt(() => edit(`/feel/textures/${index}`, name || null, name ? `texture ${index}: ${name}` : `texture ${index}: the scene's`))}
               testId={`feel-texture-${index}`}
             />
           )}

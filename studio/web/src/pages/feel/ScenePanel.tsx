@@ -12,13 +12,13 @@ import { feelStatus } from "./feelStore";
 
 const kTiles = 4;
 
-/** What is felt: a scene or a mesh, or images as tiles of a plane. */
+/** Object to touch: a scene or a mesh, or images as tiles of a plane. */
 export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boolean): void }) {
   const chosen = feelSection.value ?? {};
   const status = feelStatus.value;
   const isMesh = /\.(obj|ply|stl|off|gltf|glb)$/i.test(chosen.scene ?? "");
   return (
-    <Panel title="What is felt" collapsible>
+    <Panel title="Object to touch" collapsible>
       <Select
         label="Kind"
         wide
@@ -62,7 +62,7 @@ function Tiles() {
     return attempt(() => chooseHeightMaps(next));
   };
   if (images.length === 0 && names.length === 0) {
-    return <p class="empty">No PNG or PGM images in the folder. Export a texture as an image, or copy some here.</p>;
+    return <p class="empty">No PNG or PGM images in the folder. Export a texture as an image, or copy images into it.</p>;
   }
   return (
     <>

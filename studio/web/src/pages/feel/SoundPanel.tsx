@@ -43,7 +43,7 @@ export function SoundPanel() {
   };
   return (
     <Panel title="Sound">
-      <Toggle label="Hear the vibration" on={on} hint="The force above 30 Hz, as a voice coil would move." onChange={turn} testId="feel-sound" />
+      <Toggle label="Play the vibration" on={on} hint="The force above 30 Hz, as the motion of a voice coil." onChange={turn} testId="feel-sound" />
       <Slider
         label="Volume"
         value={volume}

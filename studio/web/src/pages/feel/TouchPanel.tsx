@@ -22,7 +22,7 @@ export function TouchPanel() {
         <Figure label="Force on the hand" value={state && floored(length3(state.out), 1e-4)} unit="N" digits={3} testId="feel-out" />
         <Figure label="Texture height" value={state && floored(state.height_m, 1e-9)} factor={1e6} unit="µm" digits={3} testId="feel-height" />
         <Figure label="Speed" value={state && floored(state.speed_mps, 1e-5)} factor={1e3} unit="mm/s" digits={3} />
-        <Figure label="Way over the surface" value={state && floored(state.way_m, 1e-6)} factor={1e3} unit="mm" digits={4} />
+        <Figure label="Path length on the surface" value={state && floored(state.way_m, 1e-6)} factor={1e3} unit="mm" digits={4} />
       </Figures>
       <h3>Safety</h3>
       <Lamp state={lamp} word={word} label="Force:" testId="feel-watchdog" />
@@ -31,9 +31,9 @@ export function TouchPanel() {
         <Figure label="Largest force" value={status?.max_force_N} unit="N" digits={3} testId="feel-limit" />
         <Figure label="Gain of the ramp" value={state && 100 * state.gain} unit="%" digits={3} testId="feel-gain" />
         <Figure label="Loop" value={state && status ? status.rate_Hz : null} unit="Hz" />
-        <Figure label="Late, 99 %" value={withUnit(fixed(state?.late_p99_us, 1), "µs")} hint="Start of a tick after it was due, over a second" />
-        <Figure label="Late, most" value={withUnit(fixed(state?.late_max_us, 1), "µs")} />
-        <Figure label="Ticks left out" value={state && String(state.skipped)} hint="Due times of the loop that passed without a tick" />
+        <Figure label="Delay of ticks, 99th percentile" value={withUnit(fixed(state?.late_p99_us, 1), "µs")} hint="Start of a tick after its due time, over one second" />
+        <Figure label="Delay of ticks, maximum" value={withUnit(fixed(state?.late_max_us, 1), "µs")} />
+        <Figure label="Skipped ticks" value={state && String(state.skipped)} hint="Due times of the loop without a tick" />
       </Figures>
       {status?.warnings.map((warning) => (
         <p key={warning} class="field-hint">
@@ -54,7 +54,7 @@ function LastRun() {
   if (!run || feelState.value) return null;
   return (
     <>
-      <h3>The last run</h3>
+      <h3>Last run</h3>
       <p data-testid="feel-last-run">
         {run.duration_s.toFixed(1)} s, then {run.end}. At most {run.figures.force.peak_out_N.toFixed(2)} N on the hand.
       </p>
@@ -72,7 +72,7 @@ function Log() {
   };
   return (
     <div class="buttons">
-      <Button onClick={toggle} disabled={status?.state !== "running"} pressed={on} hint="A row a tick, as of asperity feel --log" testId="feel-log">
+      <Button onClick={toggle} disabled={status?.state !== "running"} pressed={on} hint="One row per tick, as in asperity feel --log" testId="feel-log">
         {on ? `Writing ${status.log}: finish` : "Write a log"}
       </Button>
     </div>

@@ -20,16 +20,16 @@ export const feelSection = section<FeelSection | undefined>("feel");
 /** What keeps a scene and height maps apart: the section holds one of them. */
 export async function chooseScene(name: string): Promise<void> {
   const gesture = `scene ${Date.now()}`;
-  if (feelSection.value?.height_maps?.length) await edit("/feel/height_maps", [], "take the height maps out", gesture);
+  if (feelSection.value?.height_maps?.length) await edit("/feel/height_maps", [], "remove the height maps", gesture);
   if (Object.keys(feelSection.value?.textures ?? {}).length) await edit("/feel/textures", {}, "the scene's own textures", gesture);
-  await edit("/feel/scene", name, name ? `feel ${name}` : "feel nothing", gesture);
+  await edit("/feel/scene", name, name ? `touch ${name}` : "no scene", gesture);
 }
 
 export async function chooseHeightMaps(names: string[]): Promise<void> {
   const gesture = `height maps ${Date.now()}`;
-  if (feelSection.value?.scene) await edit("/feel/scene", "", "take the scene out", gesture);
-  if (Object.keys(feelSection.value?.textures ?? {}).length) await edit("/feel/textures", {}, "no other textures", gesture);
-  await edit("/feel/height_maps", names, names.length ? "feel height maps" : "take the height maps out", gesture);
+  if (feelSection.value?.scene) await edit("/feel/scene", "", "remove the scene", gesture);
+  if (Object.keys(feelSection.value?.textures ?? {}).length) await edit("/feel/textures", {}, "the maps' own textures", gesture);
+  await edit("/feel/height_maps", names, names.length ? "touch height maps" : "remove the height maps", gesture);
 }
 
 /** The key of a JSON pointer. */

@@ -124,7 +124,7 @@ export async function startFeeling(): Promise<void> {
 
 /** Takes the force, and with it a run that goes on without one. */
 export async function takeRun(): Promise<void> {
-  if (!(await takeForce())) throw new Error("Another window has the force. Let it go there first.");
+  if (!(await takeForce())) throw new Error("Another window has the force. Release it there first.");
   if (newestStatus.value?.state === "running") await call("feel.take");
 }
 
@@ -134,14 +134,14 @@ export const stopFeeling = (): Promise<unknown> => call("feel.stop");
 const CAUSES: Record<string, string> = {
   fault: "device fault",
   "non-finite": "not a number",
-  stale: "no news from the device",
+  stale: "no data from the device",
   ending: "ending",
   "soft-start": "soft start",
   passivity: "damped",
   "force-limit": "at the force limit",
-  "rate-limit": "slowed",
+  "rate-limit": "rate-limited",
   "not-permitted": "not permitted",
-  implausible: "no hand can be there",
+  implausible: "implausible position",
 };
 
 export const causeWords = (cause: string): string => CAUSES[cause] ?? cause;
@@ -150,9 +150,9 @@ export const causeWords = (cause: string): string => CAUSES[cause] ?? cause;
 export function watchdog(state: FeelState): { lamp: "good" | "warn" | "bad"; word: string } {
   const serious = ["fault", "non-finite", "stale", "implausible", "not-permitted", "ending"].find((cause) => state.limited.includes(cause));
   if (serious) return { lamp: serious === "not-permitted" || serious === "ending" ? "warn" : "bad", word: causeWords(serious) };
-  if (state.starts_inside) return { lamp: "warn", word: "inside: leave the object first" };
+  if (state.starts_inside) return { lamp: "warn", word: "inside the object: leave it first" };
   const slight = state.limited[0];
-  return slight ? { lamp: "warn", word: causeWords(slight) } : { lamp: "good", word: "all well" };
+  return slight ? { lamp: "warn", word: causeWords(slight) } : { lamp: "good", word: "no fault" };
 }
 
 /** How the force stands, for the header and the panel alike. */
@@ -163,9 +163,9 @@ export function forceWords(status: FeelStatus | null, state: FeelState | null, c
   if (status.state === "stopping") return { lamp: "busy", word: "stopping" };
   if (status.held) return { lamp: "busy", word: "between trials" };
   if (!state) return { lamp: "busy", word: "running" };
-  if (!status.may_command_forces) return { lamp: "warn", word: "shown only" };
+  if (!status.may_command_forces) return { lamp: "warn", word: "display only" };
   const { lamp, word } = watchdog(state);
-  if (state.limited.includes("not-permitted") && lamp === "warn") return { lamp, word: mine ? "not this window's run" : "nobody has it" };
+  if (state.limited.includes("not-permitted") && lamp === "warn") return { lamp, word: mine ? "another window's run" : "no window has it" };
   return { lamp, word };
 }
 

@@ -10,7 +10,7 @@ export interface Sound {
 /** Begins to play; needs a user's gesture. Rejects in words where the browser has no audio worklets. */
 export async function openSound(volume: number): Promise<Sound> {
   if (typeof AudioContext === "undefined" || typeof AudioWorkletNode === "undefined") {
-    throw new Error("The vibration cannot be played here; it is drawn all the same. Browsers play it on pages of this machine (127.0.0.1) or of a secure address only.");
+    throw new Error("The vibration cannot be played here; the plots still show it. Browsers play it only on pages of this machine (127.0.0.1) or of a secure address.");
   }
   const context = new AudioContext({ latencyHint: "interactive" });
   try {

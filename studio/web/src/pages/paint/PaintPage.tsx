@@ -55,11 +55,11 @@ export default function PaintPage() {
 
   const begin = async (texture: string) => {
     const fresh: Stroke = { picks_m: [], texture, index: indexOf(texture, paint.strokes, textures) };
-    await edit("/paint", { ...paint, strokes: [...paint.strokes, fresh], current: paint.strokes.length }, "begin a stroke");
+    await edit("/paint", { ...paint, strokes: [...paint.strokes, fresh], current: paint.strokes.length }, "start a stroke");
   };
   const pick = (point: Point) => edit(`/paint/strokes/${paint.current}/picks_m`, [...stroke!.picks_m, point], "add a point").catch(complain);
   const dropPick = () =>
-    stroke && stroke.picks_m.length > 0 && edit(`/paint/strokes/${paint.current}/picks_m`, stroke.picks_m.slice(0, -1), "take out a point");
+    stroke && stroke.picks_m.length > 0 && edit(`/paint/strokes/${paint.current}/picks_m`, stroke.picks_m.slice(0, -1), "remove a point");
   const move = (index: number, point: Point, first: boolean) => {
     if (first) gesture.current = newGesture();
     const picks = stroke!.picks_m.map((old, at) => (at === index ? point : old));
@@ -68,9 +68,9 @@ export default function PaintPage() {
 
   useKeys([
     { key: "n", label: "new stroke with the same texture", run: () => stroke && begin(stroke.texture) },
-    { key: "backspace", label: "take out the last point", run: dropPick },
+    { key: "backspace", label: "remove the last point", run: dropPick },
     { key: "enter", label: "finish the stroke", run: () => stroke && edit("/paint/current", -1, "finish the stroke") },
-    { key: "c", label: "show textures, coordinates, warp in turn", run: () => setShow(SHOWS[(SHOWS.findIndex((one) => one.value === show) + 1) % 3]!.value) },
+    { key: "c", label: "switch between textures, coordinates and warp", run: () => setShow(SHOWS[(SHOWS.findIndex((one) => one.value === show) + 1) % 3]!.value) },
   ]);
 
   return (
@@ -78,7 +78,7 @@ export default function PaintPage() {
       title="Paint"
       side={
         <>
-          <Panel title="What is painted on">
+          <Panel title="Mesh or scene to paint">
             <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
               onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1, written: "" }, `open ${object}`).catch(complain)} />
             {paint.object && !paint.object.endsWith(".json") && (
@@ -87,7 +87,7 @@ export default function PaintPage() {
             {block && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}
           </Panel>
           <Panel title="Texture">
-            <FilePicker label={stroke ? "Of this stroke" : "Begin a stroke with"} kinds={["texture"]} value={stroke?.texture ?? ""} disabled={!paint.object} testId="paint-texture"
+            <FilePicker label={stroke ? "Of this stroke" : "Start a stroke with"} kinds={["texture"]} value={stroke?.texture ?? ""} disabled={!paint.object} testId="paint-texture"
               hint={paint.object ? undefined : "Choose a mesh first."}
               onChange={(texture) =>
                 (stroke
@@ -95,7 +95,7 @@ export default function PaintPage() {
                   : begin(texture)
                 ).catch(complain)} />
             <TexturePreview file={stroke?.texture ?? ""} />
-            <Slider label="Half the stroke's width" value={paint.half_width_mm} low={0} high={20} step={0.1} unit="mm"
+            <Slider label="Half-width of the stroke" value={paint.half_width_mm} low={0} high={20} step={0.1} unit="mm"
               hint={paint.half_width_mm > 0 ? undefined : "0: the triangles under the path and their neighbours"}
               onInput={(value, name) => edit("/paint/half_width_mm", value, "change the width", name).catch(complain)} />
           </Panel>
@@ -129,25 +129,25 @@ export default function PaintPage() {
 function sizeWords(block: Block): string {
   const size = (block.head.high_m as number[]).map((high, axis) => high - block.head.low_m[axis]);
   const words = `${size.map((one) => length(one, 3)).join(" × ")}, ${block.arrays.texture!.length} triangles.`;
-  return Math.max(...size) > 2 ? `${words} Is the unit right?` : words;
+  return Math.max(...size) > 2 ? `${words} Check the unit.` : words;
 }
 
 function help(paint: PaintSection, busy: boolean): string {
   if (!paint.object) return "Choose a mesh or a scene of the folder.";
   if (busy) return "Painting …";
   const stroke = paint.strokes[paint.current];
-  if (!stroke) return paint.strokes.length > 0 ? "Choose a stroke to change it, or begin another." : "Choose a texture to begin a stroke.";
+  if (!stroke) return paint.strokes.length > 0 ? "Choose a stroke to change it, or start another." : "Choose a texture to start a stroke.";
   if (stroke.picks_m.length < 2) return `Click on the mesh, or add numbers at the left: ${2 - stroke.picks_m.length} more ${stroke.picks_m.length === 1 ? "point" : "points"} at least.`;
-  return "Click to go on, drag a point to move it, Enter to finish.";
+  return "Click to add a point, drag a point to move it, press Enter to finish.";
 }
 
 function legend(show: Show, cell_mm: number, hover: Hover | null): string {
   const what =
     show === "warp"
-      ? "Blue: squeezed, red: stretched, full colour from 1.25 times on; fold colour: turned over."
-      : `One square of the chequer is ${cell_mm}\u202fmm of the texture.`;
+      ? "Blue: compressed; red: stretched; full colour at 1.25 times and above. Fold colour: folded over."
+      : `One square of the checkerboard is ${cell_mm}\u202fmm of the texture.`;
   if (!hover) return what;
   if (hover.texture < 0) return `${what} Here: no texture.`;
   const at = hover.xy_mm ? `, ${hover.xy_mm[0].toFixed(2)}\u202fmm along and ${hover.xy_mm[1].toFixed(2)}\u202fmm across` : "";
-  return `${what} Here: texture ${hover.texture}${at}, ${hover.folded ? "turned over" : warpWords(hover.stretch)}.`;
+  return `${what} Here: texture ${hover.texture}${at}, ${hover.folded ? "folded over" : warpWords(hover.stretch)}.`;
 }

@@ -95,7 +95,7 @@ export function PaintView(props: PaintViewProps) {
         };
       }}
     >
-      {!block && <p class="viewport-empty">Choose a mesh or a scene at the left, then a texture: a stroke begins.</p>}
+      {!block && <p class="viewport-empty">Choose a mesh or a scene at the left, then a texture to start a stroke.</p>}
     </Viewport>
   );
 }

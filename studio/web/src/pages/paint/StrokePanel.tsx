@@ -17,13 +17,13 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
   const stroke = paint.strokes[paint.current];
   const picks = `/paint/strokes/${paint.current}/picks_m`;
   const take = (index: number) =>
-    edit("/paint", { ...paint, strokes: paint.strokes.filter((_, at) => at !== index), current: -1 }, `take out stroke ${index + 1}`);
+    edit("/paint", { ...paint, strokes: paint.strokes.filter((_, at) => at !== index), current: -1 }, `remove stroke ${index + 1}`);
 
   return (
     <Panel
       title="Strokes"
       actions={
-        <Button kind="quiet" disabled={!stroke} hint="With the texture of the chosen one" onClick={() => onBegin(stroke!.texture)}>
+        <Button kind="quiet" disabled={!stroke} hint="With the texture of the chosen stroke" onClick={() => onBegin(stroke!.texture)}>
           New
         </Button>
       }
@@ -36,10 +36,10 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
         chosen={(_, index) => index === paint.current}
         onChoose={(_, index) => edit("/paint/current", index, `choose stroke ${index + 1}`).catch(complain)}
         columns={[
-          { key: "number", label: "Nr.", cell: (_, index) => index + 1, numeric: true },
+          { key: "number", label: "No.", cell: (_, index) => index + 1, numeric: true },
           { key: "texture", label: "Texture", cell: (row) => row.texture.replace(/[./]texture\.json$/, "").replace(/^.*\//, "") },
           { key: "length", label: "Length", numeric: true, cell: (row, index) => (row.picks_m.length < 2 ? "–" : figures[index]?.fault ? "fault" : length(figures[index]?.path_length_m, 3)) },
-          { key: "drop", label: "", cell: (_, index) => <IconButton icon="trash" label={`Take out stroke ${index + 1}`} onClick={() => take(index)} /> },
+          { key: "drop", label: "", cell: (_, index) => <IconButton icon="trash" label={`Remove stroke ${index + 1}`} onClick={() => take(index)} /> },
         ]}
       />
       {stroke && stroke.picks_m.length >= 2 && figures[paint.current]?.fault && (
@@ -60,13 +60,13 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
                 key: "drop",
                 label: "",
                 cell: (_: Point, index: number) => (
-                  <IconButton icon="trash" label={`Take out point ${index + 1}`} onClick={() => edit(picks, stroke.picks_m.filter((_, at) => at !== index), "take out a point")} />
+                  <IconButton icon="trash" label={`Remove point ${index + 1}`} onClick={() => edit(picks, stroke.picks_m.filter((_, at) => at !== index), "remove a point")} />
                 ),
               },
             ]}
           />
           <fieldset class="paint-typed">
-            <legend>Add a point by numbers; the nearest point of the surface is taken</legend>
+            <legend>Add a point by its coordinates; the nearest point of the surface is used</legend>
             <div>
               {AXES.map((axis, at) => (
                 <NumberField key={axis} label={`${axis} / mm`} value={typed[at]!} factor={1e3} testId={`paint-${axis}`}

@@ -35,7 +35,7 @@ function draw(canvas: HTMLCanvasElement | null, block: Block): string {
   if (!canvas || !context) return "";
   if (!heights) {
     context.clearRect(0, 0, canvas.width, canvas.height);
-    return "A force in time, not a height.";
+    return "A force over time, not a height.";
   }
   let low = Infinity;
   let high = -Infinity;

@@ -57,7 +57,7 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
       {figures.map((one, index) => (one.warp ? <StrokeResult key={index} number={index + 1} figures={one} /> : null))}
       <Panel title="Write">
         <TextField label="Folder" value={name} onChange={setName} testId="paint-name" />
-        <Toggle label="Replace what has this name" on={replace} onChange={setReplace} testId="paint-replace" />
+        <Toggle label="Replace an existing folder" on={replace} onChange={setReplace} testId="paint-replace" />
         <Button kind="primary" onClick={write} disabled={nothing} hint={nothing ? "Paint a stroke or swap a texture first." : undefined} testId="paint-write">
           Write scene
         </Button>
@@ -85,13 +85,13 @@ function StrokeResult({ number, figures }: { number: number; figures: StrokeFigu
       <Figures>
         <Figure label="Length over the surface" value={figures.path_length_m} factor={1e3} unit="mm" />
         <Figure label="Triangles" value={String(figures.triangles)} />
-        <Figure label="Off in length, RMS" value={warp.stretch_rms} factor={100} unit="%" digits={2} hint="Deviation of the singular values from 1, by area" />
-        <Figure label="Most squeezed" value={warp.stretch_min} digits={3} hint="Least singular value; 1 keeps lengths" />
-        <Figure label="Most stretched" value={warp.stretch_max} digits={3} hint="Greatest singular value; 1 keeps lengths" />
+        <Figure label="Length distortion, RMS" value={warp.stretch_rms} factor={100} unit="%" digits={2} hint="Deviation of the singular values from 1, weighted by area" />
+        <Figure label="Largest compression" value={warp.stretch_min} digits={3} hint="Smallest singular value; 1 preserves lengths" />
+        <Figure label="Largest stretch" value={warp.stretch_max} digits={3} hint="Largest singular value; 1 preserves lengths" />
         <Figure label={`Beyond ${kWarpLimit} times`} value={`${warp.stretched} triangles`} />
-        <Figure label="Turned over" value={`${warp.folded} triangles`} />
+        <Figure label="Folded over" value={`${warp.folded} triangles`} />
         <Figure label="Overlapping" value={`${warp.overlapping} triangles`} />
-        <Figure label="Points off the mesh, most" value={Math.max(...(figures.pick_distance_m ?? [0]))} factor={1e3} unit="mm" digits={2} />
+        <Figure label="Distance of points from the mesh, maximum" value={Math.max(...(figures.pick_distance_m ?? [0]))} factor={1e3} unit="mm" digits={2} />
       </Figures>
       {(figures.problems ?? []).map((problem) => (
         <Warning key={problem.message} words={problem.message.replace(/^path \d+: /, "")} />

@@ -50,7 +50,7 @@ export function indexOf(texture: string, strokes: readonly Stroke[], scene: read
 
 export type Show = "textures" | "coordinates" | "warp";
 
-/** From this factor on a texture counts as stretched or squeezed: the server's own limit. */
+/** From this factor on a texture counts as stretched or compressed: the server's own limit. */
 export const kWarpLimit = 1.25;
 
 /** Part of the limit in −1 … 1: 0 keeps lengths, 1 stretches and −1 squeezes by the limit or more; of equal ratios equal parts. */
@@ -64,8 +64,8 @@ export function warpPart(stretch: number): number {
 export function warpWords(stretch: number): string {
   if (!Number.isFinite(stretch)) return "folded flat";
   const factor = Math.abs(stretch);
-  if (factor < 1.0005) return "true to length";
-  return `${factor.toFixed(3)} times ${stretch > 0 ? "stretched" : "squeezed"}`;
+  if (factor < 1.0005) return "length preserved";
+  return `${factor.toFixed(3)} times ${stretch > 0 ? "stretched" : "compressed"}`;
 }
 
 /** Side of a square of the chequer, mm: a round length of which the path has some twenty. */

@@ -26,10 +26,10 @@ export function MergeResults({ section }: { section: ProcessSection }) {
           <Figure label="Strokes merged" value={`${used} of ${strokesOf(shown.block).length}`} />
           {agrees(shown.block) && (
             <>
-              <Figure label="Noise of one stroke, RMS" value={gain.stroke_noise_rms_m} factor={1e6} unit="µm" digits={3} hint="In the band of the alignment: as stated, or by the strokes' differences where these show more" />
+              <Figure label="Noise of one stroke, RMS" value={gain.stroke_noise_rms_m} factor={1e6} unit="µm" digits={3} hint="In the band of the alignment: the stated noise, or the noise by the strokes' differences where it is larger" />
               <Figure label="Noise of the merge, RMS" value={gain.merged_noise_rms_m} factor={1e6} unit="µm" digits={3} hint="In the same band" />
               <Figure label="Gain" value={gainWords(gain, used)} testId="merge-gain" />
-              {ratio && <Figure label="Noise by differences" value={ratio} hint="The power of the strokes' differences over what they state; above 1: they are beside one another, or their noise is understated" />}
+              {ratio && <Figure label="Noise by differences" value={ratio} hint="Power of the strokes' differences over the stated power. Above 1, the strokes are offset sideways, or their stated noise is too small" />}
             </>
           )}
         </Figures>

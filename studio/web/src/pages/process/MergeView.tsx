@@ -28,12 +28,12 @@ const columns: Column<MergedStroke>[] = [
 export function MergeView({ section }: { section: ProcessSection }) {
   const shown = merged.value;
   if (merging.value) return <p class="empty">Merging … The strokes are processed first.</p>;
-  if (mergeFault.value) return <p class="empty" role="alert">There is no merge: {mergeFault.value}</p>;
+  if (mergeFault.value) return <p class="empty" role="alert">The strokes could not be merged: {mergeFault.value}</p>;
   if (!shown) {
     return (
       <div class="page-empty">
-        <h2>Nothing is merged yet</h2>
-        <p>Choose recordings of several strokes over one line at the left, then merge: their profiles are aligned and averaged by their noise.</p>
+        <h2>No merge yet</h2>
+        <p>Choose recordings of several strokes over one line at the left, then merge. Their profiles are aligned and averaged, weighted by their noise.</p>
       </div>
     );
   }
@@ -66,7 +66,7 @@ function MergePlot({ block }: { block: Block }) {
     <>
       <div class="measured-bar">
         <Toggle label="Differences from the merge" on={apart} onChange={setApart} testId="merge-apart" />
-        <p class="measured-note">Each stroke is drawn where the alignment puts it, its noise not removed.</p>
+        <p class="measured-note">Each stroke is drawn at its aligned position, with its noise.</p>
       </div>
       <Plot
         label={apart ? "Differences of the strokes from the merged texture" : "The merged texture with the strokes on it"}

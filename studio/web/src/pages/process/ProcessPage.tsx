@@ -69,13 +69,13 @@ export default function ProcessPage() {
   const look = (by: number) => {
     if (state.scans.length < 2) return;
     const next = (at + by + state.scans.length) % state.scans.length;
-    return edit("/process/current", next, "look at another recording");
+    return edit("/process/current", next, "show another recording");
   };
   useKeys([
     { key: "]", label: "next tab", run: () => turn(1) },
-    { key: "[", label: "tab before", run: () => turn(-1) },
+    { key: "[", label: "previous tab", run: () => turn(-1) },
     { key: ".", label: "next recording", run: () => look(1) },
-    { key: ",", label: "recording before", run: () => look(-1) },
+    { key: ",", label: "previous recording", run: () => look(-1) },
   ]);
 
   return (
@@ -167,13 +167,13 @@ function Shown({ tab, measured }: { tab: string; measured: Measured }) {
 }
 
 function Waiting({ fault, chosen }: { fault: string; chosen: boolean }) {
-  if (fault) return <p class="empty" role="alert">There is no result: {fault}</p>;
+  if (fault) return <p class="empty" role="alert">No result: {fault}</p>;
   if (chosen) return <p class="empty">Working …</p>;
   return (
     <div class="page-empty">
       <h2>No recording is chosen</h2>
-      <p>Add one at the left: its profile, path, spectrum and figures are shown here, and follow every setting.</p>
-      <p>None there yet? The Scan page records one, from a probe or from the virtual bench.</p>
+      <p>Add one at the left. This page shows its profile, path, spectrum and metrics, and updates them with every setting.</p>
+      <p>The Scan page makes recordings, from a probe or from the virtual bench.</p>
     </div>
   );
 }
@@ -198,7 +198,7 @@ function Repeatability({ section: state }: { section: ProcessSection }) {
       }
     });
   }, [state.scans, state.config, link.value]);
-  if (fault) return <p class="empty" role="alert">They could not be compared: {fault}</p>;
-  if (state.scans.length < 2) return <p class="empty">Add a second recording of the same surface: profiles are compared with those of the first.</p>;
+  if (fault) return <p class="empty" role="alert">The recordings could not be compared: {fault}</p>;
+  if (state.scans.length < 2) return <p class="empty">Add a second recording of the same surface to compare it with the first.</p>;
   return block ? <RepeatabilityPlot block={block} /> : <p class="empty">Working …</p>;
 }

@@ -20,17 +20,17 @@ export function ScansPanel({ section, measured }: { section: ProcessSection; mea
         value=""
         none="Choose one to add …"
         testId="add-recording"
-        onChange={(recording) => recording && change(withScan(section, { recording, segment: "" }), `look at ${recording}`)}
+        onChange={(recording) => recording && change(withScan(section, { recording, segment: "" }), `show ${recording}`)}
       />
-      {section.scans.length === 0 && <p class="empty">Choose a recording of the folder to see what it holds.</p>}
-      <ul class="process-scans" role="radiogroup" aria-label="The recording that is shown">
+      {section.scans.length === 0 && <p class="empty">Choose a recording of the folder to see its result.</p>}
+      <ul class="process-scans" role="radiogroup" aria-label="Displayed recording">
         {section.scans.map((scan, index) => (
           <li key={scanTitle(scan)}>
             <label>
-              <input type="radio" name="process-current" checked={index === at} onChange={() => change({ ...section, current: index }, `look at ${scanTitle(scan)}`)} />
+              <input type="radio" name="process-current" checked={index === at} onChange={() => change({ ...section, current: index }, `show ${scanTitle(scan)}`)} />
               <span>{scanTitle(scan)}</span>
             </label>
-            <IconButton icon="close" label={`Take out ${scanTitle(scan)}`} onClick={() => change(withoutScan(section, index), `take out ${scanTitle(scan)}`)} />
+            <IconButton icon="close" label={`Remove ${scanTitle(scan)}`} onClick={() => change(withoutScan(section, index), `remove ${scanTitle(scan)}`)} />
           </li>
         ))}
       </ul>
@@ -39,9 +39,9 @@ export function ScansPanel({ section, measured }: { section: ProcessSection; mea
           label="Segment"
           value={current.segment || measured.segment}
           options={measured.segments}
-          hint="Stretches that stand apart are processed each for itself."
+          hint="Separate segments are processed one by one."
           testId="segment"
-          onChange={(segment) => change({ ...section, scans: section.scans.map((scan, index) => (index === at ? { ...scan, segment } : scan)) }, `look at ${segment}`)}
+          onChange={(segment) => change({ ...section, scans: section.scans.map((scan, index) => (index === at ? { ...scan, segment } : scan)) }, `show ${segment}`)}
         />
       )}
     </Panel>

@@ -22,8 +22,8 @@ export function StrokesPanel({ section, fields }: { section: ProcessSection; fie
     edit(`/process/merge/config/${path}`, text, text === null ? `reset ${path}` : `set ${path}`).catch(complain);
   return (
     <Panel title="Strokes over one line" testId="merge-strokes">
-      {choices.length === 0 && <p class="empty">There is no recording and no result in the folder.</p>}
-      <ul class="process-strokes" aria-label="Strokes that are merged">
+      {choices.length === 0 && <p class="empty">The folder contains no recording and no result.</p>}
+      <ul class="process-strokes" aria-label="Merged strokes">
         {choices.map(({ name, kind }) => (
           <li key={name}>
             <label>
@@ -34,9 +34,9 @@ export function StrokesPanel({ section, fields }: { section: ProcessSection; fie
           </li>
         ))}
       </ul>
-      <p class="field-hint">Recordings are processed with the settings below, their noise kept. Results must be written with profile.remove_noise off.</p>
+      <p class="field-hint">Recordings are processed with the settings below, without removal of noise. Results must be written with profile.remove_noise off.</p>
       <div class="buttons">
-        <Button kind="primary" onClick={() => merge(section)} disabled={lacks !== "" || merging.value} hint={lacks || "Aligns the strokes and averages them by their noise"} testId="merge-run">
+        <Button kind="primary" onClick={() => merge(section)} disabled={lacks !== "" || merging.value} hint={lacks || "Aligns the strokes and averages them, weighted by their noise"} testId="merge-run">
           Merge
         </Button>
         {merging.value && job && (

@@ -34,7 +34,7 @@ export function WritePanel({ section }: { section: ProcessSection }) {
             {written.notes.map((note) => (
               <p key={note}>{note}</p>
             ))}
-            <Button onClick={() => saveReport(written.folder)} testId="save-report" hint="One page that opens without the studio and without a network">
+            <Button onClick={() => saveReport(written.folder)} testId="save-report" hint="One page that opens without the studio and without a network connection">
               Save the report
             </Button>
           </>

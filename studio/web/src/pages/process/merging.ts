@@ -36,10 +36,10 @@ export function withStroke(section: ProcessSection, stroke: string, on: boolean)
 }
 
 /** What can be merged: the folder's recordings and results, and what is chosen though it is gone. */
-export function strokeChoices(entries: readonly Entry[], chosen: readonly string[]): { name: string; kind: "recording" | "result" | "not there" }[] {
+export function strokeChoices(entries: readonly Entry[], chosen: readonly string[]): { name: string; kind: "recording" | "result" | "missing" }[] {
   const there = entries.flatMap(({ kind, name }) => (kind === "recording" || kind === "result" ? [{ name, kind }] : []));
   const known = new Set(there.map(({ name }) => name));
-  return [...there, ...chosen.filter((name) => !known.has(name)).map((name) => ({ name, kind: "not there" as const }))];
+  return [...there, ...chosen.filter((name) => !known.has(name)).map((name) => ({ name, kind: "missing" as const }))];
 }
 
 /** All that a merge depends on: one of another key is not of what is chosen now. */

@@ -90,15 +90,15 @@ export function knobs(method: string): Knob[] {
   if (method.startsWith("thesis")) {
     return [
       cutoff("thesis.profile.cutoff_cycles_per_mm"),
-      { path: "thesis.profile.scale_by_force", label: "Force compensation", hint: "Evens out the hand's force in the acceleration.", kind: "toggle", low: 0, high: 1, factor: 1, unit: "" },
-      { path: "thesis.profile.force_window_s", label: "Its moving average", hint: "Of the force, before it is used.", kind: "slider", low: 0, high: 1, factor: 1e3, unit: "ms" },
-      { path: "thesis.profile.min_speed_mps", label: "Velocity threshold", hint: "Slower samples stick or rest and become gaps.", kind: "slider", low: 0, high: 0.05, factor: 1e3, unit: "mm/s" },
+      { path: "thesis.profile.scale_by_force", label: "Force compensation", hint: "Compensates for the hand's varying force in the acceleration.", kind: "toggle", low: 0, high: 1, factor: 1, unit: "" },
+      { path: "thesis.profile.force_window_s", label: "Averaging time of the force", hint: "Moving average of the force before it is used.", kind: "slider", low: 0, high: 1, factor: 1e3, unit: "ms" },
+      { path: "thesis.profile.min_speed_mps", label: "Velocity threshold", hint: "Slower samples become gaps: the tip sticks or is stationary.", kind: "slider", low: 0, high: 0.05, factor: 1e3, unit: "mm/s" },
     ];
   }
   return [
     cutoff("profile.cutoff_cycles_per_mm"),
     { path: "base.contact.touch_N", label: "Force that counts as touching", hint: "Below it the tip is off the surface.", kind: "slider", low: 0.051, high: 2, factor: 1, unit: "N", logarithmic: true },
-    { path: "profile.max_stop_s", label: "Longest rest", hint: "A longer one parts the profile.", kind: "slider", low: 0.05, high: 10, factor: 1, unit: "s", logarithmic: true },
+    { path: "profile.max_stop_s", label: "Longest static interval", hint: "A longer static interval splits the profile.", kind: "slider", low: 0.05, high: 10, factor: 1, unit: "s", logarithmic: true },
     { path: "compliance.min_speed_mps", label: "Velocity threshold", hint: "Slower windows do not count for the compliance.", kind: "slider", low: 0.001, high: 0.05, factor: 1e3, unit: "mm/s" },
   ];
 }

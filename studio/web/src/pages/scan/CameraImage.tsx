@@ -23,7 +23,7 @@ export function CameraImage() {
       {block ? (
         <canvas ref={canvas} role="img" aria-label={tags.length ? `The camera's image with the tags ${found}` : "The camera's image; no tag is found"} />
       ) : (
-        <p class="empty">{state.value?.open && !state.value.source?.camera ? "This source has no camera." : "The camera's image comes with an open source."}</p>
+        <p class="empty">{state.value?.open && !state.value.source?.camera ? "This source has no camera." : "Open a source to see the camera's image."}</p>
       )}
       {block && (
         <figcaption>

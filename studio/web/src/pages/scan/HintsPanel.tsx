@@ -7,14 +7,14 @@ const TITLES: Record<string, string> = {
   probe_silent: "Probe silent",
   rows_lost: "Rows lost",
   marker_lost: "Marker lost",
-  accelerometer_saturating: "Acceleration too strong",
-  force_saturating: "Force too strong",
+  accelerometer_saturating: "Accelerometer saturating",
+  force_saturating: "Force sensor saturating",
   too_fast: "Too fast",
-  too_light: "Too light",
-  too_hard: "Too hard",
+  too_light: "Force too small",
+  too_hard: "Force too large",
   tilted_too_far: "Tilted too far",
-  tilting_too_fast: "Turning too fast",
-  doubling_back: "Doubling back",
+  tilting_too_fast: "Rotating too fast",
+  doubling_back: "Reversing direction",
 };
 
 /** What the operator should do differently, now. */
@@ -34,7 +34,7 @@ export function HintsPanel() {
             <p>{hint.text}</p>
           </li>
         ))}
-        {hints.length === 0 && <li class="empty">{waiting || (now?.open ? "All is well." : "They come while you scan.")}</li>}
+        {hints.length === 0 && <li class="empty">{waiting || (now?.open ? "No hints." : "Hints appear while you scan.")}</li>}
       </ul>
     </Panel>
   );

@@ -32,16 +32,16 @@ export function RecordPanel() {
         <Button onClick={stop} disabled={!can.stop} hint="Space" testId="scan-stop">
           <Icon name="stop" /> Stop
         </Button>
-        <Button onClick={() => segment(name)} disabled={!can.segment} hint="S: ends this segment and begins the next" testId="scan-segment">
+        <Button onClick={() => segment(name)} disabled={!can.segment} hint="S: ends this segment and starts the next" testId="scan-segment">
           <Icon name="plus" /> Segment
         </Button>
         <Button onClick={rescan} disabled={!can.rescan} hint="R: discards the last segment and records it again" testId="scan-rescan">
           <Icon name="reset" /> Rescan
         </Button>
-        <Button kind="danger" onClick={discard} disabled={!can.discard} hint="D: takes the last segment out" testId="scan-discard">
+        <Button kind="danger" onClick={discard} disabled={!can.discard} hint="D: removes the last segment" testId="scan-discard">
           <Icon name="trash" /> Discard
         </Button>
-        <Button onClick={restore} disabled={!can.restore} hint="U: brings back what was discarded last" testId="scan-restore">
+        <Button onClick={restore} disabled={!can.restore} hint="U: restores the segment that was discarded last" testId="scan-restore">
           <Icon name="undo" /> Undo discard
         </Button>
       </div>

@@ -14,7 +14,7 @@ export function ResultPanel() {
   const head = refined.value?.head;
   return (
     <Panel title="Refined on stop" testId="scan-result">
-      {!head && <p class="empty">Stop a scan, and it is worked out in full.</p>}
+      {!head && <p class="empty">Stop a scan to compute its refined profile.</p>}
       {head?.failure && <p role="alert">{head.failure}</p>}
       {head && !head.failure && (
         <>
@@ -22,12 +22,12 @@ export function ResultPanel() {
             <Figure label="Length" value={head.length_m} factor={1e3} unit="mm" />
             <Figure label="Mean speed" value={head.speed_mps} factor={1e3} unit="mm/s" digits={3} />
             <Figure label="Ra" value={head.roughness?.Ra_m} factor={1e6} unit="µm" digits={3} testId="scan-ra" />
-            <Figure label="Live against refined" value={head.difference ? `r\u00a0=\u00a0${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
-              hint="Correlation of the two in the band in which profiles are compared" />
+            <Figure label="Correlation, live and refined" value={head.difference ? `r\u00a0=\u00a0${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
+              hint="Correlation of the live and the refined profile in the band of comparison" />
             <Figure label="RMS difference" value={head.difference?.rms_um} unit="µm" digits={3} testId="scan-rms" />
-            <Figure label="Worked out in" value={`${Math.round(head.took_s * 1e3)}\u202fms`} testId="scan-took" />
+            <Figure label="Computing time" value={`${Math.round(head.took_s * 1e3)}\u202fms`} testId="scan-took" />
           </Figures>
-          {!isLiveUsable(head.difference) && <p class="field-hint">The live profile had too little to go by, and is not shown.</p>}
+          {!isLiveUsable(head.difference) && <p class="field-hint">The live profile had too few data and is not shown.</p>}
           {verdictsOf(head).length > 0 && (
             <div class="field-error" role="status">
               <VerdictList verdicts={verdictsOf(head)} />

@@ -41,10 +41,10 @@ export default function ScanPage() {
   const fields = useMemo(() => withSettings(known, settings), [known, settings]);
   useKeys([
     { key: "space", label: "start or stop recording", run: startOrStop },
-    { key: "s", label: "end the segment and begin the next", run: () => segment() },
+    { key: "s", label: "end the segment and start the next", run: () => segment() },
     { key: "d", label: "discard the last segment", run: away(discard) },
     { key: "r", label: "rescan: discard and record again", run: away(rescan) },
-    { key: "u", label: "undo discard: bring the last one back", run: restore },
+    { key: "u", label: "undo discard: restore the last one", run: restore },
     { key: "a", label: "record while the probe touches (Auto)", run: toggleAuto },
   ]);
   return (

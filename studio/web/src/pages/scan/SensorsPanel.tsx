@@ -33,17 +33,17 @@ export function SensorsPanel() {
       {objectHint(recorder) && <p class="field-hint">{objectHint(recorder)}</p>}
       {(now?.live?.poses_late ?? 0) > 0 && (
         <p class="field-hint" role="status">
-          {now!.live!.poses_late} poses came too late for the live profile: this machine is too busy. The recording and the refined profile have them.
+          {now!.live!.poses_late} poses arrived too late for the live profile, because this machine is too busy. The recording and the refined profile contain them.
         </p>
       )}
       <Figures>
         <Figure label="Force" value={fixed(recorder?.force_N, recorder?.force_is_calibrated ? 2 : 0) + (recorder?.force_is_calibrated ? "\u202fN" : recorder ? " counts" : "")} testId="scan-force" />
         <Figure label="Probe" value={recorder ? `${Math.round(recorder.probe.rate_Hz)} rows/s` : null} testId="scan-probe-rate" />
         <Figure label="Tracker" value={recorder ? `${Math.round(recorder.poses.rate_Hz)} poses/s` : null} testId="scan-pose-rate" />
-        <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="On the way from the probe to the recording." testId="scan-lost" />
+        <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="Between the probe and the recording." testId="scan-lost" />
         <Figure label="Written" value={recorder ? recorder.disk_bytes * 1e-6 : null} unit="MB" digits={3} />
-        <Figure label="To the screen" value={delay(stream.median_ms)} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
-        <Figure label="Profile" value={Number.isFinite(stream.profile_ms) ? `${delay(stream.profile_ms)} behind` : null} hint="From the tip's motion to the profile's newest point on the screen: the median." testId="scan-profile-latency" />
+        <Figure label="Display latency" value={delay(stream.median_ms)} hint="From the sensor to the drawn frame, median." testId="scan-latency" />
+        <Figure label="Profile" value={Number.isFinite(stream.profile_ms) ? `${delay(stream.profile_ms)} behind` : null} hint="From the tip's motion to the newest point of the profile on the screen, median." testId="scan-profile-latency" />
       </Figures>
     </Panel>
   );

@@ -32,7 +32,7 @@ export function SourcePanel({ fields }: { fields: readonly ConfigField[] }) {
   const chosen = scan.value;
   return (
     <Panel title="Source" collapsible testId="scan-source-panel">
-      <Select label="Where the rows come from" wide value={chosen.source} options={SOURCES} disabled={isOpen || busy} testId="scan-source"
+      <Select label="Source of the samples" wide value={chosen.source} options={SOURCES} disabled={isOpen || busy} testId="scan-source"
         onChange={(source) => set("source", source, "choose the source")} />
       {isOpen ? (
         <Button onClick={close} disabled={busy} testId="scan-close">
@@ -54,8 +54,8 @@ export function SourcePanel({ fields }: { fields: readonly ConfigField[] }) {
             <TextField label="Segment" value={chosen.segment} placeholder="all of it" onChange={(name) => set("segment", name, "choose the segment")} />
           </>
         )}
-        <TextField label="Object" value={chosen.object} placeholder="what is scanned" testId="scan-object" onChange={(text) => set("object", text, "name the object")} />
-        <TextField label="Recording's name" value={chosen.name} hint="A number is added where it is taken: nothing is overwritten." testId="scan-name"
+        <TextField label="Object" value={chosen.object} placeholder="scanned object" testId="scan-object" onChange={(text) => set("object", text, "name the object")} />
+        <TextField label="Recording's name" value={chosen.name} hint="If the name exists, a number is added; nothing is overwritten." testId="scan-name"
           onChange={(text) => set("name", text, "name the recording")} />
       </fieldset>
     </Panel>
@@ -70,7 +70,7 @@ function Bench({ fields }: { fields: readonly ConfigField[] }) {
         .map((field) => (
           <BenchControl key={field.path} field={field} onChange={(text) => setSettings({ [field.path]: text }, "change the bench").catch(complain)} />
         ))}
-      <p class="field-hint">The bench waits for Start, then its hand scans once. It can be scanned again and again.</p>
+      <p class="field-hint">Press Start: the bench's hand scans once. You can repeat the scan.</p>
     </>
   );
 }
@@ -90,7 +90,7 @@ function Hardware({ hardware }: { hardware: ScanSection["hardware"] }) {
   useEffect(() => void call("scan.sources").then(setDevices).catch(complain), []);
   const text = (key: keyof ScanSection["hardware"], label: string, hint: string, choices: string[] = []) => (
     <TextField label={label} value={String(hardware[key])} wide testId={`scan-hardware-${key}`}
-      hint={choices.length ? `${hint} There are: ${choices.join(", ")}.` : hint}
+      hint={choices.length ? `${hint} Available: ${choices.join(", ")}.` : hint}
       onChange={(value) => set(`hardware/${key}`, value, `change the ${label.toLowerCase()}`)} />
   );
   return (
@@ -98,10 +98,10 @@ function Hardware({ hardware }: { hardware: ScanSection["hardware"] }) {
       {text("probe", "Probe", "serial:/dev/ttyUSB0, usb:VID:PID, udp:PORT, or file:CAPTURE in the folder.", devices.serial)}
       <Select label="Protocol" value={hardware.protocol} options={["open", "what"]} onChange={(value) => set("hardware/protocol", value, "change the protocol")} />
       {text("camera", "Camera", "v4l2:/dev/video0?rate=120, or y4m:FIFO in the folder. Empty: no camera.", devices.cameras)}
-      {text("poses", "Another tracker", "udp:PORT or pipe:FIFO. Instead of a camera.")}
+      {text("poses", "Another tracker", "udp:PORT or pipe:FIFO, instead of a camera.")}
       {text("calibration", "Calibration", "calibration.json in the folder, of probe, camera and tracker.")}
       {text("markers", "Markers", "markers.json in the folder. Empty: those of the calibration.")}
-      <Toggle label="Record without a calibration" hint="To calibrate from; there is no profile then." on={hardware.uncalibrated}
+      <Toggle label="Record without a calibration" hint="For calibration recordings; no profile is computed." on={hardware.uncalibrated}
         onChange={(on) => set("hardware/uncalibrated", on, on ? "record without a calibration" : "record with a calibration")} />
       <Select label="World" value={hardware.world} options={[{ value: "camera", label: "the camera's" }, { value: "z_up", label: "z is up" }]}
         onChange={(value) => set("hardware/world", value, "change the world")} />

@@ -17,7 +17,7 @@ export async function open(): Promise<void> {
 
 export async function close(): Promise<void> {
   const { recording } = await call<{ recording: string | null }>("scan.close");
-  say(recording ? `${recording} is finished.` : "Nothing was scanned: no recording was kept.");
+  say(recording ? `${recording} is finished.` : "Nothing was scanned, so no recording was kept.");
 }
 
 export const start = () => can().start && call("scan.start");

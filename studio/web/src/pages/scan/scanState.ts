@@ -97,31 +97,31 @@ export function recordWords(state: ScanState | null): Words {
   if (!state) return { lamp: "off", word: "…" };
   if (state.opening) return { lamp: "busy", word: state.open ? "Closing …" : "Opening …" };
   const recorder = state.recorder;
-  if (!state.open || !recorder) return { lamp: "off", word: "Nothing open" };
+  if (!state.open || !recorder) return { lamp: "off", word: "No source open" };
   if (recorder.failure) return { lamp: "bad", word: "Disk failed" };
   if (recorder.storing) return { lamp: "good", word: "Recording" };
-  if (recorder.automatic) return { lamp: "busy", word: "Waits for touch" };
+  if (recorder.automatic) return { lamp: "busy", word: "Waiting for contact" };
   return { lamp: "off", word: "Ready" };
 }
 
 export function contactWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };
-  if (!recorder.contact_ready) return { lamp: "busy", word: "learning the idle level" };
+  if (!recorder.contact_ready) return { lamp: "busy", word: "measuring the idle level" };
   return recorder.touching ? { lamp: "good", word: "in contact" } : { lamp: "off", word: "in the air" };
 }
 
 const SENSOR_WORDS: Record<SensorState, Words> = {
-  absent: { lamp: "off", word: "not asked for" },
+  absent: { lamp: "off", word: "not used" },
   running: { lamp: "good", word: "running" },
-  silent: { lamp: "warn", word: "nothing has come yet" },
-  lost: { lamp: "bad", word: "lost; tried again and again" },
-  ended: { lamp: "warn", word: "at its end" },
+  silent: { lamp: "warn", word: "no data yet" },
+  lost: { lamp: "bad", word: "lost; reconnecting" },
+  ended: { lamp: "warn", word: "ended" },
 };
 
 /** `waits`: the source is one that plays, and does not now. */
 export function sensorWords(sensor: Sensor | undefined, waits: boolean): Words {
   if (!sensor) return { lamp: "off", word: "–" };
-  if (waits && (sensor.state === "running" || sensor.state === "silent")) return { lamp: "off", word: "waits for Start" };
+  if (waits && (sensor.state === "running" || sensor.state === "silent")) return { lamp: "off", word: "waiting for Start" };
   return SENSOR_WORDS[sensor.state];
 }
 
@@ -135,13 +135,13 @@ export function bodyWords(body: BodyState): Words {
 
 /** What a person should know where the object moves. */
 export const objectHint = (recorder: RecorderState | undefined): string =>
-  recorder?.bodies?.some((body) => body.name === "object") ? "Path and profile on this page are in the tracker's world and hold while the object is at rest. The Process page shows the scan relative to the object." : "";
+  recorder?.bodies?.some((body) => body.name === "object") ? "Path and profile on this page are in the tracker's world frame and are valid while the object is stationary. The Process page shows the scan relative to the object." : "";
 
 export function gravityWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };
-  if (recorder.gravity.implausible) return { lamp: "warn", word: "measured, but not believed" };
+  if (recorder.gravity.implausible) return { lamp: "warn", word: "measured, but implausible" };
   if (recorder.gravity.measured) return { lamp: "good", word: "measured" };
-  return { lamp: "warn", word: "assumed: hold still" };
+  return { lamp: "warn", word: "assumed: keep the probe still" };
 }
 
 /** Rows that are missing in the recording, for whatever reason. */
@@ -163,7 +163,7 @@ export function discardedWords(state: ScanState | null): string {
   const last = recorder?.last_discarded;
   if (!recorder || !last) return "";
   const others = recorder.discarded > 1 ? ` and ${recorder.discarded - 1} more` : "";
-  return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; “Undo discard” (U) brings it back until the recording is closed.`;
+  return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; “Undo discard” (U) restores it until the recording is closed.`;
 }
 
 /** A live profile that tells something of the surface: it agrees with the refined one. */

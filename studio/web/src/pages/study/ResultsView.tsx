@@ -45,7 +45,7 @@ export function ResultsView() {
           </Button>
         )}
       </div>
-      {results ? <Results results={results} /> : <p class="empty">{log ? "Reading …" : "Set a study up at the left and begin, or choose the log of a session."}</p>}
+      {results ? <Results results={results} /> : <p class="empty">{log ? "Reading …" : "Set up a study at the left and begin, or choose the log of a session."}</p>}
     </Panel>
   );
 }
@@ -54,7 +54,7 @@ function Results({ results }: { results: StudyResults }) {
   return (
     <>
       <p data-testid="study-summary">
-        {results.question} Participant {results.participant}, run {results.run}: {answersWords(results.answers)}, {results.whole ? "all" : "not at the end yet"}; half of them within{" "}
+        {results.question} Participant {results.participant}, run {results.run}: {answersWords(results.answers)}, {results.whole ? "complete" : "not complete yet"}; median response time{" "}
         {seconds(results.median_response_s)} of touching. {results.left && `Answers “left”: ${shareWords(results.left)}.`}
       </p>
       {results.problems.map((problem) => (
@@ -74,7 +74,7 @@ function Pairs({ results }: { results: StudyResults }) {
   const rows = names.map((name, index) => ({ name, wins: results.wins![index]!, worth: results.worths?.[index] }));
   return (
     <>
-      <h3>How often a row was chosen over a column</h3>
+      <h3>Number of times that a row was chosen over a column</h3>
       <Table
         savable
         caption="Wins"
@@ -86,7 +86,7 @@ function Pairs({ results }: { results: StudyResults }) {
           { key: "worth", label: "Worth, ln", numeric: true, cell: (row) => (row.worth ? worthWords(row.worth) : "–") },
         ]}
       />
-      {!results.worths_exist && <p class="field-hint">There are no worths yet: one part of the textures was always chosen over the rest, or was not compared with it.</p>}
+      {!results.worths_exist && <p class="field-hint">No worths can be computed yet, because some textures were always chosen over the others or were not compared with them.</p>}
       <h3>Pairs</h3>
       <Table<PairShare>
         savable
@@ -120,15 +120,15 @@ function Tracks({ results }: { results: StudyResults }) {
         chosen={(_, index) => index === at}
         columns={[
           { key: "name", label: "Texture, repetition", cell: (_, index) => words(index) },
-          { key: "threshold", label: `Level at ${fixed(100 * results.target!, 1)} % right (± SE)`, numeric: true, cell: thresholdWords },
+          { key: "threshold", label: `Level at ${fixed(100 * results.target!, 1)} % correct (± SE)`, numeric: true, cell: thresholdWords },
           { key: "trials", label: "Trials", numeric: true, cell: (row) => row.levels.length },
-          { key: "turns", label: "Turns", numeric: true, cell: (row) => row.reversals.length },
-          { key: "done", label: "At its end", cell: (row) => (row.done ? "yes" : "no") },
+          { key: "turns", label: "Reversals", numeric: true, cell: (row) => row.reversals.length },
+          { key: "done", label: "Complete", cell: (row) => (row.done ? "yes" : "no") },
         ]}
       />
       {tracks.some((each) => each.at_limit) && (
         <p class="field-hint" data-testid="study-at-limit">
-          A track that turned at the lowest or highest level has no threshold: what is felt lies beyond it, or it was guessed. Widen the levels.
+          A track with a reversal at the lowest or highest level has no threshold. The threshold is beyond that level, or the answers were guessed. Widen the levels.
         </p>
       )}
       {tracks.length > 1 && (

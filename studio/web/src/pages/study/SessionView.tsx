@@ -56,7 +56,7 @@ function TrialView({ session }: { session: Session }) {
     [
       { key: "space", label: session.touching ? "stop touching" : "touch", run: touch },
       ...answerKeys(isRating, answer),
-      { key: "backspace", label: "take the last answer back", run: () => session.may_take_back && takeBack() },
+      { key: "backspace", label: "withdraw the last answer", run: () => session.may_take_back && takeBack() },
       { key: "p", label: "pause", run: () => call("study.pause") },
     ],
     "Study",
@@ -116,12 +116,12 @@ function TrialView({ session }: { session: Session }) {
           {session.touching ? "Stop touching" : "Touch"}
         </Button>
         <Button onClick={takeBack} disabled={!session.may_take_back} testId="study-take-back">
-          Take the last answer back
+          Withdraw the last answer
         </Button>
         <Button onClick={() => call("study.pause")} testId="study-pause">
           Pause
         </Button>
-        <Button onClick={end} hint="The log stays, and can be continued" testId="study-end">
+        <Button onClick={end} hint="The log is kept, and the session can be continued" testId="study-end">
           End
         </Button>
       </div>
@@ -142,8 +142,8 @@ function answerKeys(isRating: boolean, answer: (value: number) => Promise<void>)
 function Pause({ status, session }: { status: StudyStatus; session: Session }) {
   useKeys(
     [
-      { key: "space", label: "go on", run: resume },
-      { key: "backspace", label: "take the last answer back", run: () => session.may_take_back && takeBack() },
+      { key: "space", label: "continue", run: resume },
+      { key: "backspace", label: "withdraw the last answer", run: () => session.may_take_back && takeBack() },
     ],
     "Study",
   );
@@ -155,12 +155,12 @@ function Pause({ status, session }: { status: StudyStatus; session: Session }) {
       </p>
       <div class="buttons">
         <Button kind="primary" onClick={resume} testId="study-resume">
-          Go on
+          Continue
         </Button>
         <Button onClick={takeBack} disabled={!session.may_take_back}>
-          Take the last answer back
+          Withdraw the last answer
         </Button>
-        <Button onClick={end} hint="The log stays, and can be continued" testId="study-end">
+        <Button onClick={end} hint="The log is kept, and the session can be continued" testId="study-end">
           End
         </Button>
       </div>
@@ -169,7 +169,7 @@ function Pause({ status, session }: { status: StudyStatus; session: Session }) {
 }
 
 function Finish({ session }: { session: Session }) {
-  useKeys([{ key: "backspace", label: "take the last answer back", run: () => session.may_take_back && takeBack() }], "Study");
+  useKeys([{ key: "backspace", label: "withdraw the last answer", run: () => session.may_take_back && takeBack() }], "Study");
   return (
     <div class="study-rest" role="status">
       <h2>That was the last one. Thank you.</h2>
@@ -179,7 +179,7 @@ function Finish({ session }: { session: Session }) {
           End and show the results
         </Button>
         <Button onClick={takeBack} disabled={!session.may_take_back} testId="study-take-back">
-          Take the last answer back
+          Withdraw the last answer
         </Button>
       </div>
     </div>

@@ -17,7 +17,7 @@ import { isCode, isStudyName, lackOf, parameterWords, stimulusName, toggled, tri
 import { setStudy, studySection } from "./studyStore";
 
 const METHODS: { value: Method; label: string }[] = [
-  { value: "pairs", label: "Pairs: which of two" },
+  { value: "pairs", label: "Pairs: one of two" },
   { value: "staircase", label: "Staircase: a threshold" },
   { value: "rating", label: "Rating: how real, 1 to 7" },
 ];
@@ -38,7 +38,7 @@ export function BeginPanel() {
         label="Participant's code"
         value={participant}
         placeholder="p01"
-        hint="Letters, digits, _ and -; no names. It is part of the log's name."
+        hint="Letters, digits, _ and -, not a person's name. The code is part of the log's name."
         error={typed !== "" && !isCode(typed) ? "Only letters, digits, _ and -, at most 40." : ""}
         onInput={setTyped}
         onChange={(code) => attempt(() => edit("/study/participant", code, `participant ${code}`))}
@@ -86,7 +86,7 @@ function StaircaseChoices({ study }: { study: Study }) {
   return (
     <>
       <Select
-        label="What the level is"
+        label="Meaning of the level"
         wide
         value={String(study.staircase.parameter)}
         options={["height-difference", "height", "stiffness-difference", "friction-difference"].map((value) => ({ value, label: parameterWords(value) }))}
@@ -94,8 +94,8 @@ function StaircaseChoices({ study }: { study: Study }) {
         testId="study-parameter"
       />
       <NumberField label="First level" value={Number(study.staircase.start_level)} low={1e-6} high={1000} onChange={(value) => set("start_level", value, "first level")} />
-      <NumberField label="Right answers to go down" integer value={down} low={1} high={5} hint={`Settles at ${(100 * target).toFixed(1)} % right answers.`} onChange={(value) => set("down", value, "rule of the staircase")} testId="study-down" />
-      <NumberField label="Ends after" unit="turns" integer value={Number(study.staircase.reversals)} low={2} high={100} onChange={(value) => set("reversals", value, "turns of the staircase")} testId="study-reversals" />
+      <NumberField label="Correct answers per step down" integer value={down} low={1} high={5} hint={`Settles at ${(100 * target).toFixed(1)} % correct answers.`} onChange={(value) => set("down", value, "rule of the staircase")} testId="study-down" />
+      <NumberField label="Ends after" unit="reversals" integer value={Number(study.staircase.reversals)} low={2} high={100} onChange={(value) => set("reversals", value, "reversals of the staircase")} testId="study-reversals" />
     </>
   );
 }
@@ -160,7 +160,7 @@ export function PresentationPanel() {
       />
       <NumberField label="Side of a tile" unit="mm" value={Number(study.presentation.tile_mm)} low={1} high={1000} onChange={(value) => attempt(() => edit("/study/study/presentation/tile_mm", value, "side of a tile"))} />
       <Dialog title="Settings of the study" open={all} onClose={() => setAll(false)}>
-        <p>The rule of the staircase, and how textures are presented. Everything else of the rendering is as the studio was started.</p>
+        <p>The rule of the staircase, and how textures are presented. All other rendering settings are those given when the studio started.</p>
         <ConfigForm
           fields={fields}
           onChange={(dotted, text) => {
@@ -195,10 +195,10 @@ export function FilePanel() {
         value={study.name}
         error={typed !== "" && !isStudyName(typed) ? "Only letters, digits, _ and -, at most 60." : ""}
         onInput={setTyped}
-        onChange={(name) => attempt(() => setStudy("name", name, `call the study ${name}`))}
+        onChange={(name) => attempt(() => setStudy("name", name, `name the study ${name}`))}
         testId="study-name"
       />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
+      <Toggle label="Replace an existing file" on={replace} onChange={setReplace} />
       <Button onClick={write} testId="study-write">
         Write {study.name}.study.json
       </Button>

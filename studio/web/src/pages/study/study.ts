@@ -130,9 +130,9 @@ export function trialWords(study: Study): string {
 
 /** Why a study cannot begin yet; empty: it can. */
 export function lackOf(study: Study, participant: string): string {
-  if (study.method === "pairs" && study.stimuli.length < 2) return "Choose two textures at least.";
+  if (study.method === "pairs" && study.stimuli.length < 2) return "Choose at least two textures.";
   if (study.stimuli.length === 0) return "Choose a texture.";
-  if (participant === "") return "Give the participant a code.";
+  if (participant === "") return "Enter a code for the participant.";
   return "";
 }
 
@@ -166,15 +166,15 @@ export function progressWords({ trial, of, answers }: Session): string {
 export function adviceOf(session: Session, held: boolean): string {
   const answer = session.method === "rating" ? "answer with 1 to 7" : "answer with 1 or 2";
   if (!session.touching) return session.touched ? `Press Space to touch again, or ${answer}.` : "Press Space to touch.";
-  if (!session.ready && !held) return "Nothing is felt: this window does not have the force. Take it, then go on.";
-  if (!session.ready) return "One moment: the textures are being laid.";
+  if (!session.ready && !held) return "No force is rendered, because this window does not have the force. Take it, then continue.";
+  if (!session.ready) return "Please wait until the textures are ready.";
   return session.method === "rating" ? `Touch the texture and the real object, then ${answer}.` : `Touch both, then ${answer}.`;
 }
 
 const PAUSES: Record<string, string> = {
   pause: "Paused",
-  break: "Time for a break",
-  restart: "The session goes on where it was",
+  break: "Break",
+  restart: "The session continues from the same trial",
 };
 export const pauseWords = (why: string): string => PAUSES[why] ?? "Paused";
 
