@@ -18,6 +18,7 @@ constexpr std::size_t kFewest = 4 * kSegment;
 constexpr double kHighest = 0.9;  // of the Nyquist frequency: beyond it converters have filters of their own
 constexpr double kGone = 0.25;    // of the stated noise's density
 constexpr double kLowest_Hz = 4.0;
+constexpr double kRounding_counts2 = 1.0 / 12.0;
 
 double median_between(const PowerSpectrum& spectrum, double low_Hz, double high_Hz) {
   std::vector<double> inside;
@@ -56,6 +57,13 @@ AccelerometerFloor accelerometer_floor(const Recording& recording) {
   };
   double low_Hz = 0.5 * nyquist_Hz;
   out.ratio = most_between(low_Hz, kHighest * nyquist_Hz);
+  out.rounding_ratio = 0.0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double power_counts2 =
+        median_between(spectra[static_cast<std::size_t>(axis)], low_Hz, kHighest * nyquist_Hz) * stated_counts[axis] *
+        stated_counts[axis];
+    out.rounding_ratio = std::max(out.rounding_ratio, power_counts2 / kRounding_counts2);
+  }
   if (!(out.ratio < kGone)) return out;
   while (0.5 * low_Hz > kLowest_Hz && most_between(0.5 * low_Hz, low_Hz) < kGone) low_Hz *= 0.5;
   out.from_Hz = low_Hz;

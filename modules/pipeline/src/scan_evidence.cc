@@ -107,6 +107,7 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.clipped_share = force.clipped_share;
   const AccelerometerFloor floor = accelerometer_floor(recording);
   out.accel_floor_ratio = floor.ratio;
+  out.accel_rounding_ratio = floor.rounding_ratio;
   out.accel_quiet_from_Hz = floor.from_Hz;
   out.accel_bias_mps2 = metric("accel_bias_mps2");
   out.latency_s = metric("latency_s");

@@ -35,6 +35,7 @@ Recording filtered(Recording r, double corner_Hz) {
 
 TEST(AccelerometerFloor, OfAWholeBandIsTheStatedNoise) {
   const AccelerometerFloor floor = accelerometer_floor(readings());
+  EXPECT_NEAR(floor.rounding_ratio, 300.0, 30.0);  // 25 over 1/12
   EXPECT_NEAR(floor.ratio, 1.0, 0.1);  // a median over 100 frequencies of 14 segments, the largest of three channels
   EXPECT_TRUE(std::isnan(floor.from_Hz));
 }

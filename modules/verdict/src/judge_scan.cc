@@ -32,6 +32,7 @@ constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
 constexpr double kFiltered_power = 0.04;   // the sensor has a fifth of its stated noise
+constexpr double kRounding_power = 2.0;    // of rounding: no noise beside it
 constexpr double kVibration_share = 0.1;   // of the texture's power
 constexpr std::size_t kFewSticks = 5;
 constexpr double kStuck_share = 0.05;
@@ -126,7 +127,7 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
 
 // A filter or an average has taken the sensor's noise, and the surface's vibrations with it.
 void judge_bandwidth(const ScanEvidence& e, Verdicts& out) {
-  if (!(e.accel_floor_ratio < kFiltered_power)) return;
+  if (!(e.accel_floor_ratio < kFiltered_power && e.accel_rounding_ratio < kRounding_power)) return;
   const std::string waves =
       e.mean_speed_mps > 0.0 ? fmt::format(": waves shorter than {:.2g} mm are missing, and longer ones may be too low",
                                            1e3 * e.mean_speed_mps / e.accel_quiet_from_Hz)

@@ -120,6 +120,7 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"accel_filtered", "above 512 Hz it has 0.3 % of the power of its own noise: waves shorter than 0.049 mm",
        [](ScanEvidence& e) {
          e.accel_floor_ratio = 0.003;
+         e.accel_rounding_ratio = 1.1;
          e.accel_quiet_from_Hz = 512.0;
          e.mean_speed_mps = 0.025;
        }},
@@ -253,6 +254,14 @@ TEST(JudgeScan, TheLargerOfNoiseAndMisplacementIsNamed) {
   evidence.expected_correlation = 0.6;
   ASSERT_EQ(judge_scan(evidence).size(), 1U);
   EXPECT_EQ(judge_scan(evidence)[0].code, "below_noise");
+}
+
+// A stated noise that holds the misfit of a calibration is no sign of a filter where there is noise beside rounding.
+TEST(JudgeScan, AnAccelerometerQuieterThanStatedIsNotFiltered) {
+  ScanEvidence evidence = good();
+  evidence.accel_floor_ratio = 0.003;
+  evidence.accel_rounding_ratio = 5.0;
+  EXPECT_TRUE(judge_scan(evidence).empty());
 }
 
 // Weaker than a tenth of the texture's power it is in the noise, and that is all.

@@ -23,6 +23,7 @@ struct ScanEvidence {
   // Of the accelerometer's highest octave over its stated white noise, powers; and the frequency from which on it has
   // less than a quarter of it (accelerometer_floor.h).
   double accel_floor_ratio = kUnknown;
+  double accel_rounding_ratio = kUnknown;  // of the same power over that of rounding
   double accel_quiet_from_Hz = kUnknown;
   double accel_bias_mps2 = kUnknown;
   double latency_s = kUnknown;
@@ -63,7 +64,7 @@ struct ScanEvidence {
   bool reads_no_contact = false;  // there is a calibrated force sensor, and its constant reading is below touching
   double covered = kUnknown;      // part of the profile that has heights
   double min_coverage = 0.5;
-  bool error_known = true;     // the method gives the standard deviation of its heights
+  bool error_known = true;  // the method gives the standard deviation of its heights
   double mean_speed_mps = kUnknown;
   double length_m = kUnknown;  // of the path in contact
   double length_stderr_m = kUnknown;
