@@ -143,7 +143,8 @@ TEST(Calibrate, AccelFromARecordingWithoutATracker) {
   write_text(folder / "tracker.csv", "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz\n");
   const Outcome outcome = run({"calibrate", "accel", folder.string(), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const json& scale : json::parse(outcome.out)["values"]["scale_counts_per_mps2"])
+  const json values = json::parse(outcome.out)["values"];
+  for (const json& scale : values["scale_counts_per_mps2"])
     EXPECT_NEAR(scale.get<double>(), 400.0, 1.0);
 }
 

@@ -33,7 +33,12 @@ std::string first_line(const fs::path& file) {
 }
 
 // Markers are found in 30 images a second, but not with every access to memory checked: then only races are looked for.
-#ifdef __SANITIZE_THREAD__
+#if defined(__has_feature)  // clang's
+#if __has_feature(address_sanitizer)
+#define CHECKS_MEMORY
+#endif
+#endif
+#if defined(__SANITIZE_THREAD__) || defined(CHECKS_MEMORY)
 constexpr bool kKeepsUp = false;
 #else
 constexpr bool kKeepsUp = true;

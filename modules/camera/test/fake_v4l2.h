@@ -202,7 +202,7 @@ class FakeV4l2 final : public V4l2System {
     if (frame.failure != 0) return fail(frame.failure);
     out.index = camera_.queued.front();
     camera_.queued.pop_front();
-    std::memcpy(camera_.memory[out.index].data(), frame.bytes.data(), frame.bytes.size());
+    std::copy(frame.bytes.begin(), frame.bytes.end(), camera_.memory[out.index].begin());
     out.bytesused = static_cast<std::uint32_t>(frame.bytes.size());
     out.flags = frame.flags;
     out.timestamp = frame.stamp;

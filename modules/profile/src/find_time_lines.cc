@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kWindow_s = 8.0;         // the mains keep their frequency to 0.1 Hz over it
 constexpr double kSlow = 0.25;            // of the median speed: slower, the times of points are known too badly
+constexpr double kFast = 4.0;             // likewise: faster parts do not set the sampling
 constexpr std::size_t kPadding = 4;       // ordinates between two independent ones
 constexpr std::size_t kNeighbours = 24;   // independent ordinates to each side by which one is judged
 constexpr std::size_t kOwn = 3;           // next to a line: its own
@@ -97,33 +98,52 @@ void add(const std::vector<double>& from, std::vector<double>& to) {
   for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
 }
 
+// Points [first, last) of a window that begins at begin_s.
+struct Window {
+  std::size_t first = 0, last = 0;
+  double begin_s = 0.0;
+};
+
+// Windows that overlap by half, each with enough points; none where the tip is so slow that few have.
+std::vector<Window> find_windows(const std::vector<double>& t_s, double window_s) {
+  std::vector<Window> out;
+  const double halves = std::max(2.0, std::floor(2.0 * (t_s.back() - t_s.front()) / window_s));
+  if (!(halves < 4.0 * static_cast<double>(t_s.size()) / static_cast<double>(kLeastPoints))) return out;
+  for (double half = 0.0; half + 1.0 < halves; half += 1.0) {
+    const double begin_s = t_s.front() + 0.5 * half * window_s;
+    const auto first = std::lower_bound(t_s.begin(), t_s.end(), begin_s) - t_s.begin();
+    const auto last = std::upper_bound(t_s.begin(), t_s.end(), begin_s + window_s) - t_s.begin();
+    if (last - first >= static_cast<std::ptrdiff_t>(kLeastPoints))
+      out.push_back({static_cast<std::size_t>(first), static_cast<std::size_t>(last), begin_s});
+  }
+  return out;
+}
+
+// Samples of a window and its padding.
+std::size_t padded(double samples) { return smooth_length(kPadding * (static_cast<std::size_t>(samples) + 2)); }
+
 Periodograms mean_periodograms(const Passed& passed, double spacing_m) {
   Periodograms out;
-  const double all_s = passed.t_s.back() - passed.t_s.front();
-  out.window_s = std::min(kWindow_s, all_s);
-  const auto halves = static_cast<std::size_t>(2.0 * all_s / out.window_s);  // windows overlap by half
-  const double slow_mps = percentile(passed.speed_mps, 1.0), fast_mps = percentile(passed.speed_mps, 95.0);
-  const double spacing_s = spacing_m / fast_mps, longest_s = 2.5 * spacing_m / slow_mps;
-  const std::size_t time_length = smooth_length(kPadding * (static_cast<std::size_t>(out.window_s / spacing_s) + 2));
-  const std::size_t path_length = smooth_length(
-      kPadding * (static_cast<std::size_t>(
-                      out.window_s * *std::max_element(passed.speed_mps.begin(), passed.speed_mps.end()) / spacing_m) +
-                  2));
+  out.window_s = std::min(kWindow_s, passed.t_s.back() - passed.t_s.front());
+  const std::vector<Window> windows = find_windows(passed.t_s, out.window_s);
+  double longest_m = 0.0;
+  for (const Window& w : windows) longest_m = std::max(longest_m, passed.s_m[w.last - 1] - passed.s_m[w.first]);
+  // Samples of time are those of points at a fast part, but no more than four times as many as there are points.
+  const double typical_mps = median(passed.speed_mps);
+  const double fast_mps = std::min(percentile(passed.speed_mps, 95.0), kFast * typical_mps);
+  const double spacing_s = spacing_m / fast_mps, longest_s = 2.5 * spacing_m / percentile(passed.speed_mps, 1.0);
+  const std::size_t time_length = padded(out.window_s / spacing_s), path_length = padded(longest_m / spacing_m);
   out.time.step = 1.0 / (spacing_s * static_cast<double>(time_length));
   out.path.step = 1.0 / (spacing_m * static_cast<double>(path_length));
-  for (std::size_t half = 0; half + 1 < std::max<std::size_t>(2, halves); ++half) {
-    const double begin_s = passed.t_s.front() + 0.5 * static_cast<double>(half) * out.window_s;
-    const auto first = std::lower_bound(passed.t_s.begin(), passed.t_s.end(), begin_s) - passed.t_s.begin();
-    const auto last =
-        std::upper_bound(passed.t_s.begin(), passed.t_s.end(), begin_s + out.window_s) - passed.t_s.begin();
-    if (last - first < static_cast<std::ptrdiff_t>(kLeastPoints)) continue;
+  for (const Window& w : windows) {
     const auto part = [&](const std::vector<double>& x) {
-      return std::vector<double>(x.begin() + first, x.begin() + last);
+      return std::vector<double>(x.begin() + static_cast<std::ptrdiff_t>(w.first),
+                                 x.begin() + static_cast<std::ptrdiff_t>(w.last));
     };
     const std::vector<double> s_m = part(passed.s_m), t_s = part(passed.t_s), height_m = part(passed.height_m);
-    if (s_m.back() - s_m.front() > static_cast<double>(path_length / kPadding) * spacing_m) continue;  // over a gap
     std::vector<double> weight;
-    for (const double t : t_s) weight.push_back(1.0 - std::cos(2.0 * std::numbers::pi * (t - begin_s) / out.window_s));
+    for (const double t : t_s)
+      weight.push_back(1.0 - std::cos(2.0 * std::numbers::pi * (t - w.begin_s) / out.window_s));
     add(windowed_ordinates(t_s, weight, height_m, spacing_s, longest_s, time_length), out.time.power_m2);
     add(windowed_ordinates(s_m, weight, height_m, spacing_m, 1.5 * spacing_m, path_length), out.path.power_m2);
     out.windows += 1.0;
