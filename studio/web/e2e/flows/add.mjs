@@ -107,7 +107,7 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       equal(png.bytes.subarray(1, 4).toString(), "PNG", "a PNG");
       equal([png.bytes.readUInt32BE(16), png.bytes.readUInt32BE(20)], [1600, 840], "its size");
       const csv = (await saved("Save values as CSV")).bytes.toString().split("\r\n");
-      ok(/^"?(Way|Distance)/.test(csv[0]) && csv.length > 100, "a row a sample");
+      ok(/^"?Path length/.test(csv[0]) && csv.length > 100, "a row a sample");
       const measured = readFileSync(join(folder, "measured", "profile.csv"), "utf8").trim().split("\n").filter((line) => /^[-\d]/.test(line));
       equal(csv.length - 2, measured.length, "as many rows as profile.csv of the command line");
       if (process.env.ASPERITY_E2E_PICTURES) {

@@ -60,7 +60,7 @@ export default async function align({ page, step, folder, asperity, until, equal
 
   await step("the pose is taken and written", async () => {
     await page.getByTestId("align-take").click();
-    await page.getByTestId("align-write").getByLabel("Folder").fill("aligned");
+    await page.getByTestId("align-write").getByRole("textbox", { name: "Folder" }).fill("aligned");
     await page.getByTestId("align-write-button").click();
     await page.getByTestId("align-written").filter({ hasText: "Written to aligned" }).waitFor({ timeout: 120_000 });
     const registration = JSON.parse(readFileSync(join(folder, "aligned", "registration.json"), "utf8"));
