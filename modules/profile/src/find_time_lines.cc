@@ -180,7 +180,7 @@ std::vector<TimeLine> find_time_lines(const Profile& profile, std::span<const do
   std::vector<TimeLine> out;
   if (profile.speed_mps.size() != profile.size() || height_m.size() != profile.size()) return out;
   const Passed passed = passed_points(profile, height_m);
-  if (passed.s_m.size() < kLeastPoints) return out;
+  if (passed.s_m.size() < kLeastPoints || !(passed.t_s.back() > passed.t_s.front())) return out;
   const double power_m2 = mean_square(passed.height_m);
   if (!(power_m2 > 0.0)) return out;
   const Periodograms p = mean_periodograms(passed, profile.spacing_m);
