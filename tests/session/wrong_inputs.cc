@@ -122,7 +122,8 @@ void smooth_counts(Recording& r, double width_s) {
   for (std::size_t i = 0; i < r.probe.size(); ++i) sums[i + 1] = sums[i] + r.probe.accel_counts[i];
   for (std::size_t i = 0; i < r.probe.size(); ++i) {
     const std::size_t first = i < reach ? 0 : i - reach, last = std::min(i + reach + 1, r.probe.size());
-    r.probe.accel_counts[i] = (sums[last] - sums[first]) / static_cast<double>(last - first);
+    const Eigen::Vector3d mean = (sums[last] - sums[first]) / static_cast<double>(last - first);
+    r.probe.accel_counts[i] = mean.array().round().matrix();
   }
 }
 

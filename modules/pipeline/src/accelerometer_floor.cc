@@ -39,11 +39,14 @@ AccelerometerFloor accelerometer_floor(const Recording& recording) {
   if (!(span_s > 0.0)) return out;
   const double rate_Hz = static_cast<double>(probe.size() - 1) / span_s, nyquist_Hz = 0.5 * rate_Hz;
   std::vector<PowerSpectrum> spectra;
+  bool whole = true;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> x;
     x.reserve(probe.size());
     for (const Eigen::Vector3d& counts : probe.accel_counts) {
-      if (std::isfinite(counts[axis])) x.push_back(counts[axis]);
+      if (!std::isfinite(counts[axis])) continue;
+      whole = whole && counts[axis] == std::round(counts[axis]);
+      x.push_back(counts[axis]);
     }
     if (x.size() < kFewest) return out;
     spectra.push_back(welch(x, rate_Hz, kSegment));
@@ -57,8 +60,8 @@ AccelerometerFloor accelerometer_floor(const Recording& recording) {
   };
   double low_Hz = 0.5 * nyquist_Hz;
   out.ratio = most_between(low_Hz, kHighest * nyquist_Hz);
-  out.rounding_ratio = 0.0;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+  if (whole) out.rounding_ratio = 0.0;
+  for (Eigen::Index axis = 0; whole && axis < 3; ++axis) {
     const double power_counts2 =
         median_between(spectra[static_cast<std::size_t>(axis)], low_Hz, kHighest * nyquist_Hz) * stated_counts[axis] *
         stated_counts[axis];

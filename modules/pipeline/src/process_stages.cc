@@ -142,7 +142,8 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.noise = std::move(noise.noise);
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
     if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
-    out.noise.time_lines = find_time_lines(out.profile, out.profile.texture_m);
+    out.noise.time_lines = find_time_lines(out.profile, out.profile.texture_m, out.noise.place_sigma_m,
+                                           unroll_path(base.path, out.profile.s_m));
     add_time_lines(out.profile, out.noise);
     out.measured_texture_m = out.profile.texture_m;
     if (config.profile.merge_passes) merge_recorded_lines(base, out);

@@ -19,8 +19,9 @@ Recording readings() {
   for (int i = 0; i < 8000; ++i) {
     const double vibration_counts = 300.0 * std::sin(2.0 * std::numbers::pi * 80.0 * i / 2000.0);
     out.probe.t_ns.push_back(500000LL * i);
-    out.probe.accel_counts.emplace_back(Eigen::Vector3d::Constant(vibration_counts) +
-                                        5.0 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
+    const Eigen::Vector3d counts = Eigen::Vector3d::Constant(vibration_counts) +
+                                   5.0 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    out.probe.accel_counts.emplace_back(counts.array().round().matrix());
   }
   return out;
 }
@@ -46,6 +47,8 @@ TEST(AccelerometerFloor, FallsWhereReadingsWereSmoothed) {
   EXPECT_LT(once.ratio, 0.02);
   EXPECT_LE(once.from_Hz, 250.0);
   EXPECT_GE(once.from_Hz, 60.0);
+  // These are no whole counts, so that nothing can be said of rounding.
+  EXPECT_TRUE(std::isnan(once.rounding_ratio));
 }
 
 TEST(AccelerometerFloor, IsNotKnownWithoutStatedNoiseOrReadings) {

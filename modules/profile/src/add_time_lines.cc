@@ -46,24 +46,32 @@ void add_time_lines(Profile& profile, TextureNoise& noise) {
     }
   }
   if (!(more_m2 > 0.0)) return;
+  // Both together are no more than what was measured: the first may have counted the lines already.
+  const double all_m2 = power_of(noise.added_rms_m) + more_m2;
+  const double share = std::min(1.0, power_of(noise.texture_rms_m) / all_m2);
+  for (double& density : noise.added_psd_m2_mm) density *= share;
   for (std::vector<double>* sigma_m : {&noise.added_sigma_m, &profile.texture_sigma_m, &profile.sigma_m}) {
-    for (double& sigma : *sigma_m) sigma = std::sqrt(power_of(sigma) + more_m2);
+    for (double& sigma : *sigma_m) sigma = std::sqrt(power_of(sigma) + share * more_m2);
   }
-  const double stderr_m2 = 2.0 * noise.added_rms_stderr_m * noise.added_rms_m;  // of the power
-  const auto with = [&](double rms_m) { return std::sqrt(power_of(rms_m) + more_m2); };
-  noise.added_rms_m = with(noise.added_rms_m);
-  noise.added_rms_stderr_m = 0.5 * stderr_m2 / noise.added_rms_m;
+  // Its users take the power's relative error as one factor of the whole density, so it stays as it is: smaller, the
+  // rest of the noise would look better known than before.
+  const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
+  const auto with = [&](double rms_m) { return std::sqrt(power_of(rms_m) + share * more_m2); };
+  noise.added_rms_m = std::sqrt(share * all_m2);
+  noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
   noise.noise_rms_m = with(noise.noise_rms_m);
-  noise.noise_rms_stderr_m = noise.noise_rms_m * noise.added_rms_stderr_m / noise.added_rms_m;
-  noise.typical_added_rms_m = with(noise.typical_added_rms_m);
-  const double added_m2 = power_of(noise.typical_added_rms_m), measured_m2 = power_of(noise.typical_texture_rms_m);
-  const double most = 1.0 + kSure * stderr_m2 / power_of(noise.added_rms_m);
-  const double all_m2 = added_m2 + power_of(noise.typical_misplaced_rms_m);
-  noise.snr = std::max(0.0, measured_m2 - added_m2) / all_m2;
-  noise.snr_low = std::max(0.0, measured_m2 - most * added_m2) / (most * all_m2);
+  noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;
+  const double measured_m2 = power_of(noise.typical_texture_rms_m);
+  const double typical_m2 = power_of(noise.typical_added_rms_m) + more_m2;
+  const bool all_noise = typical_m2 >= measured_m2;
+  noise.typical_added_rms_m = std::sqrt(std::min(typical_m2, measured_m2));
+  const double added_m2 = power_of(noise.typical_added_rms_m);
+  const double most = 1.0 + kSure * relative, both_m2 = added_m2 + power_of(noise.typical_misplaced_rms_m);
+  noise.snr = all_noise ? 0.0 : (measured_m2 - added_m2) / both_m2;
+  noise.snr_low = std::max(0.0, measured_m2 - most * added_m2) / (most * both_m2);
   noise.measured_snr_low = std::max(0.0, measured_m2 - most * added_m2) / (most * added_m2);
-  noise.at_most_m = std::sqrt(
-      std::max(0.0, power_of(noise.texture_rms_m) - std::max(0.0, power_of(noise.added_rms_m) - kSure * stderr_m2)));
+  const double least_m2 = power_of(noise.added_rms_m) * std::max(0.0, 1.0 - kSure * relative);
+  noise.at_most_m = std::sqrt(std::max(0.0, power_of(noise.texture_rms_m) - least_m2));
 }
 
 }  // namespace asperity

@@ -187,12 +187,12 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
   const PathKnots knots = gather_knots(base.s_m, channels, use, 0.25 * config.spacing_m);
   out.sigma_m = resample_linear(knots, 1, first, count, config.spacing_m, config.max_hole_m);
   out.force_N = resample_linear(knots, 2, first, count, config.spacing_m, config.max_hole_m);
-  const std::vector<double> t_s = resample_linear(knots, 3, first, count, config.spacing_m, config.max_hole_m);
+  out.t_s = resample_linear(knots, 3, first, count, config.spacing_m, config.max_hole_m);
   out.speed_mps.assign(count, kNan);
   for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k) {
     const auto a = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, k - kSpeedReach));
     const auto b = std::min(static_cast<std::size_t>(k + kSpeedReach), count - 1);
-    const double took_s = t_s[b] - t_s[a];
+    const double took_s = out.t_s[b] - out.t_s[a];
     if (took_s > 0.0) out.speed_mps[static_cast<std::size_t>(k)] = (out.s_m[b] - out.s_m[a]) / took_s;
   }
   out.texture_m = extract_texture(out.height_m, config.spacing_m, config.cutoff_cycles_per_mm, config.bridge_m, breaks);

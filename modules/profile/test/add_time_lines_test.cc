@@ -72,10 +72,21 @@ TEST(AddTimeLines, AreInAllThatIsSaidOfTheNoise) {
   EXPECT_NEAR(profile.texture_sigma_m[7], 5e-6, 1e-12);
   EXPECT_NEAR(profile.sigma_m[7], std::sqrt(32.0) * 1e-6, 1e-12);
   EXPECT_NEAR(noise.snr, 3.0, 1e-9);  // (100 − 25) / 25
-  // The error of the power, 2 · 0.3 · 3 µm², is of the first part alone.
-  EXPECT_NEAR(2.0 * noise.added_rms_stderr_m * noise.added_rms_m, 1.8e-12, 1e-18);
-  EXPECT_NEAR(noise.at_most_m, std::sqrt(100.0 - (25.0 - 1.96 * 1.8)) * 1e-6, 1e-11);
+  // The power is known to a fifth, as before.
+  EXPECT_NEAR(noise.added_rms_stderr_m / noise.added_rms_m, 0.1, 1e-9);
+  EXPECT_NEAR(noise.at_most_m, std::sqrt(100.0 - 25.0 * (1.0 - 1.96 * 0.2)) * 1e-6, 1e-11);
   EXPECT_LT(noise.snr_low, noise.snr);
+}
+
+// The noise before may have been made as large as the measured texture, hum and all: an upper bound of 0 would be wrong.
+TEST(AddTimeLines, NoiseIsNoMoreThanWhatWasMeasured) {
+  Profile profile = profile_of();
+  TextureNoise noise = noise_of();
+  noise.time_lines = {{60.0, 0.3, 9.9e-6, false}};
+  add_time_lines(profile, noise);
+  EXPECT_NEAR(noise.added_rms_m, 10e-6, 1e-12);
+  EXPECT_EQ(noise.snr, 0.0);
+  EXPECT_NEAR(noise.at_most_m, std::sqrt(1.96 * 0.2) * 10e-6, 1e-11);
 }
 
 TEST(AddTimeLines, NothingIsDoneWithoutNoiseOrLines) {

@@ -11,7 +11,8 @@ struct AccelerometerFloor {
   // Power densities from half to 0.9 of the Nyquist frequency over the stated noise's: the median over frequencies, of
   // that channel which has most. nan: not known.
   double ratio = std::numeric_limits<double>::quiet_NaN();
-  // The same density times the Nyquist frequency over 1/12 count², the power of rounding to whole counts.
+  // The same density times the Nyquist frequency over 1/12 count², the power of rounding to whole counts. nan: readings
+  // are not whole counts (they were averaged or converted after the converter).
   double rounding_ratio = std::numeric_limits<double>::quiet_NaN();
   double from_Hz = std::numeric_limits<double>::quiet_NaN();  // from where on it is below a quarter of it, by octaves
 };

@@ -7,7 +7,7 @@ struct TimeLine {
   double frequency_Hz = 0.0;
   double resolution_Hz = 0.0;  // two lines nearer to one another are one
   double rms_m = 0.0;          // of the heights, in their band
-  // At so even a speed that a pattern of the surface would look the same.
+  // A pattern of the surface would look the same: the speed is too even, places are too uncertain, or the path bends.
   bool could_be_surface = false;
 };
 

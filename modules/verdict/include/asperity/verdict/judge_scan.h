@@ -23,7 +23,7 @@ struct ScanEvidence {
   // Of the accelerometer's highest octave over its stated white noise, powers; and the frequency from which on it has
   // less than a quarter of it (accelerometer_floor.h).
   double accel_floor_ratio = kUnknown;
-  double accel_rounding_ratio = kUnknown;  // of the same power over that of rounding
+  double accel_rounding_ratio = kUnknown;  // of the same power over that of rounding; nan: not rounded to counts
   double accel_quiet_from_Hz = kUnknown;
   double accel_bias_mps2 = kUnknown;
   double latency_s = kUnknown;
