@@ -260,11 +260,9 @@ void run_seed(const Options& options, int seed) {
 
 void run(const Options& options) {
   std::printf(
-      "| seed | strokes | placements | places of a stroke wrong by, mm | wander about that, mm | shared | covered | "
-      "surface RMS, µm "
-      "| error RMS, µm | the same, moved | error over σ | "
-      "correlation | moved "
-      "by x, y, mm | σ, µm | left out: error over σ | s: simulate, register, map | verdict |\n"
+      "| seed | strokes | placements | position error of a stroke, mm | its drift, mm | shared | covered | "
+      "surface RMS, µm | error RMS, µm | after the shift | error over σ | correlation | shift x, y, mm | σ, µm "
+      "| left out: error over σ | s: simulate, register, map | verdict |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= options.seeds; ++seed) run_seed(options, seed);
 }

@@ -112,7 +112,8 @@ void repeat(const Options& options) {
 // k_c and its error against the one that the true contact force gives, of probes that lean along the path.
 void tilt(const Options& options) {
   std::printf(
-      "| lean, rad | material | reading over contact force | k_c, contact force | axial as read | corrected | three "
+      "| lean, rad | material | reading over contact force | k_c, contact force | axial, uncorrected | corrected | "
+      "three "
       "axes "
       "|\n|---|---|---|---|---|---|---|\n");
   for (const double lean : {-0.7, -0.4, 0.0, 0.4, 0.7}) {
@@ -190,7 +191,8 @@ void chart(const Options& options) {
 int main(int argc, char** argv) {
   try {
     const std::string_view table = argc > 1 ? argv[1] : "";
-    if (table != "repeat" && table != "chart" && table != "tilt") throw Error("repeat, tilt or chart?");
+    if (table != "repeat" && table != "chart" && table != "tilt")
+      throw Error("the first argument must be repeat, tilt or chart");
     Options options;
     bench::read_options(argc - 1, argv + 1,
                         {{"--seeds", [&](auto value) { options.seeds = bench::seed_count(value); }},

@@ -140,7 +140,7 @@ std::string address_of(const std::filesystem::path& output) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  throw Error("the studio told no address");
+  throw Error("the studio printed no address");
 }
 
 void write_wave(const std::filesystem::path& file) {
@@ -266,7 +266,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   }
   // A machine that stands still ends the force, and a point that comes back inside an object feels nothing until the
   // hand lifts.
-  std::printf("feel: begun again %d times; force at the board in %.1f %% of the time, %.2f N at most\n%s", begun_again,
+  std::printf("feel: restarted %d times; force at the board in %.1f %% of the time, %.2f N at most\n%s", begun_again,
               100.0 * held / std::max(1.0, looked), most_N, last_lines(dir / "feel.txt").c_str());
   for (std::size_t i = 0; i < children.size(); ++i) {
     if (readings[i].size() < 2) continue;

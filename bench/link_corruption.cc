@@ -126,8 +126,8 @@ void run_what(std::uint32_t frames, std::uint64_t seed) {
     return 100.0 * static_cast<double>(count) / static_cast<double>(samples.size());
   };
   std::printf("what, seed %d: %u frames\n", static_cast<int>(seed), frames);
-  std::printf("  given             %zu frames, %.3f %% of these damaged in silence, %llu resyncs\n", samples.size(),
-              percent(silent), static_cast<unsigned long long>(counted.resyncs));
+  std::printf("  given             %zu frames, %.3f %% of these damaged and not detected, %llu resyncs\n",
+              samples.size(), percent(silent), static_cast<unsigned long long>(counted.resyncs));
   std::printf("  lost              %llu, estimated from time %llu\n",
               static_cast<unsigned long long>(frames - samples.size()),
               static_cast<unsigned long long>(counted.lost_frames));
@@ -165,7 +165,7 @@ void run_pipeline(const char* surface, int seeds) {
 
 int whole_number(const char* text) {
   const auto value = parse_int64(text);
-  if (!value || *value < 1 || *value > 100'000'000) throw Error(std::string("'") + text + "' is no count");
+  if (!value || *value < 1 || *value > 100'000'000) throw Error(std::string("'") + text + "' is not a count");
   return static_cast<int>(*value);
 }
 

@@ -123,7 +123,7 @@ void run(const Options& options) {
   std::printf(
       "| surface | probe | mm/s | live r | gain | batch r | gain | live:batch r | gain | texture r | length, %% | "
       "position live, "
-      "batch, mm | error/sigma live, batch | motion behind, ms | point behind, ms | us/row | share of time, %% | "
+      "batch, mm | error/sigma live, batch | motion delay, ms | point delay, ms | us/row | share of time, %% | "
       "longest "
       "push, ms |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
@@ -184,8 +184,7 @@ void run(const Options& options) {
 
 // Recordings of a real or rendered tracker have no truth: live beside batch.
 void run_recordings(const Options& options) {
-  std::printf(
-      "| recording | live:batch r | gain | RMS of the difference, µm | motion behind, ms | point behind, ms |\n");
+  std::printf("| recording | live:batch r | gain | RMS of the difference, µm | motion delay, ms | point delay, ms |\n");
   std::printf("|---|---|---|---|---|---|\n");
   for (const std::string& folder : options.recordings) {
     const asperity::Recording recording = asperity::read_recording(folder);

@@ -95,7 +95,7 @@ asperity::Scan simulate(const Options& options, const asperity::TriangleMesh& me
 
 void run(const Options& options) {
   std::printf(
-      "| seed | placements found | of the scans | points moved, mm | its σ | turned, ° | its σ | crossings | shifts | "
+      "| seed | placements found | of the scans | points moved, mm | its σ | rotated, ° | its σ | crossings | shifts | "
       "trajectories, s | registration, s | all, s |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= options.seeds; ++seed) {
     asperity::PebbleConfig pebble;

@@ -147,8 +147,9 @@ void print_row(const std::string& name, const std::vector<PoseMetrics>& metrics,
 
 void run(const Options& options) {
   std::printf(
-      "| surface | path | points moved, mm | its σ | turned, ° | its σ | correlation | length error, %% | undetermined "
-      "| not trusted |\n");
+      "| surface | path | points moved, mm | its σ | rotated, ° | its σ | correlation | length error, %% | "
+      "undetermined "
+      "| invalid |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<PathChoice> paths;
   if (options.through.empty()) paths.push_back({"straight", ""});

@@ -52,8 +52,8 @@ constexpr const char* kCaseNames[] = {"as registered",
                                       "true pose and tip, measured positions",
                                       "true pose, corrected positions",
                                       "flat facets",
-                                      "a plane, turned alike",
-                                      "a plane, straight before the camera"};
+                                      "a plane, same orientation",
+                                      "a plane, facing the camera"};
 constexpr std::size_t kCases = std::size(kCaseNames);
 
 struct Options {

@@ -108,7 +108,7 @@ void print_patterns(int patterns) {
 void print_arcs(int patterns) {
   constexpr double kLength_mm = 80.0, kSagitta_mm = 8.0;
   const std::vector<double> signals{20.0, 40.0, 80.0, 160.0, 1e4};
-  std::printf("\n| pattern on an arc | ribs turned | periods | path |");
+  std::printf("\n| pattern on an arc | ribs rotated | periods | path |");
   for (const double signal : signals) std::printf(" %g |", signal);
   std::printf(" pitch across over its σ, RMS |\n|---|---|---|---|");
   for (std::size_t k = 0; k < signals.size(); ++k) std::printf("---|");
@@ -184,7 +184,7 @@ void print_lattices(int profiles, int patterns) {
   const std::vector<Eigen::Vector2d> path_m = bench::draw_arc(kSagitta_mm, points);
   for (const double turned_deg : {0.0, 10.0, 25.0, 45.0}) {
     for (const double periods : {15.0, 30.0, 60.0}) {
-      std::printf("| turned %g° | %g |", turned_deg, periods);
+      std::printf("| rotated %g° | %g |", turned_deg, periods);
       double square = 0.0, count = 0.0;
       for (const double signal : signals) {
         int right = 0;

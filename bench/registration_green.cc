@@ -122,9 +122,10 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   for (const auto& line : given.lines) length_m += bench::kPathSpacing_m * static_cast<double>(line.p_m.size());
   std::fprintf(
       stderr,
-      "%4d %-38s %-14s %zu paths in %zu placements %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm "
+      "%4d %-38s %-14s %zu paths in %zu placements %3.0f mm drift %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm "
       "%.2f° rms "
-      "%.3f slow ratio %.2f e^%.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g mirror "
+      "%.3f drift ratio %.2f e^%.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g "
+      "mirror "
       "%.1f | %s%s%s | %s "
       "| %.2f s\n",
       number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(), given.body.c_str(),
@@ -134,7 +135,7 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
       result.rivals.odds, 1e3 * result.rivals.sigma_m, result.rivals.sigma_rad / kDegree, 1.0 / given.scale,
       result.rivals.scale.ratio, result.rivals.scale.ratio * result.rivals.scale.sigma, result.rivals.scale.gain,
       result.rivals.chance, result.rivals.mirror_log_odds, out.wrong ? "WRONG" : "", out.good ? "good" : "",
-      out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), out.codes.c_str(),
+      out.wrong && out.trusted ? " BUT VALID" : (out.good && !out.trusted ? " BUT INVALID" : ""), out.codes.c_str(),
       out.time_s);
   return out;
 }
@@ -182,8 +183,8 @@ void run(const Options& options) {
   if (failed) std::rethrow_exception(failed);
 
   std::printf(
-      "| case | cases | wrong | of them trusted | good | of them trusted | trusted in all "
-      "|\n|---|---|---|---|---|---|---|\n");
+      "| case | cases | wrong | of them valid | good | of them valid | valid in all |\n"
+      "|---|---|---|---|---|---|---|\n");
   std::vector<const Outcome*> all;
   for (std::size_t kind = 0; kind < bench::kCaseClassNames.size(); ++kind) {
     std::vector<const Outcome*> of_kind;

@@ -56,7 +56,7 @@ void print_lines(const std::vector<asperity::RepeatedLine>& lines, const std::ve
   bool laid = false;
   for (const asperity::RepeatedLine& line : lines) {
     std::printf(" %zu of %zu %s | %.2f, %.2f, %.2f | %.2f (%.2f to %.2f) |", line.merged.used,
-                line.merged.passes.size(), line.laid ? "laid" : "not laid", line.merged.lines_over_noise,
+                line.merged.passes.size(), line.laid ? "merged" : "not merged", line.merged.lines_over_noise,
                 line.merged.noise_scale, 1e3 * line.merged.apart_m, line.merged.noise_ratio,
                 line.merged.noise_ratio_low, line.merged.noise_ratio_high);
     laid |= line.laid;
@@ -185,8 +185,10 @@ int main(int argc, char** argv) {
                          {"--seed", bench::whole_into(choice.seed, 1.0, 1e9)},
                          {"--probe", bench::text_into(choice.probe)}});
     std::printf(
-        "| surface | path | seed | apart, µm RMS error | merged, µm | ratio | correlation apart | merged | expected "
-        "apart, µm | merged, µm | passes | lines over noise (power), noise scale, mm apart | over all stated noise (95 "
+        "| surface | path | seed | separate, µm RMS error | merged, µm | ratio | correlation, separate | merged | "
+        "expected "
+        "separate, µm | merged, µm | passes | lines over noise (power), noise scale, mm apart | over all stated noise "
+        "(95 "
         "%%) |\n");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     std::vector<double> ratios;
@@ -203,7 +205,7 @@ int main(int argc, char** argv) {
     }
     std::sort(ratios.begin(), ratios.end());
     if (!ratios.empty()) {
-      std::printf("\nlaid: %zu; ratio of the errors: median %.2f, largest %.2f\n", ratios.size(),
+      std::printf("\nmerged lines: %zu; ratio of the errors: median %.2f, largest %.2f\n", ratios.size(),
                   ratios[ratios.size() / 2], ratios.back());
     }
     return 0;

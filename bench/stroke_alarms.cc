@@ -38,10 +38,10 @@ int passed(const AirStroke& made, int strokes, double vibration_mps2 = 0.0) {
 
 void print_alarms(int strokes) {
   const std::vector<Row> rows{
-      {"at rest 0.4 s, 1 s of motion, force", {.still_s = 0.4, .moving_s = 1.0}},
-      {"at rest 1 s, 4 s of motion, force", {.still_s = 1.0, .moving_s = 4.0}},
-      {"at rest 0.4 s, 1 s of motion, no force", {.still_s = 0.4, .moving_s = 1.0, .has_force = false}},
-      {"no rest, 3 s of motion, no force", {.still_s = 0.0, .moving_s = 3.0, .has_force = false}},
+      {"static 0.4 s, 1 s of motion, force", {.still_s = 0.4, .moving_s = 1.0}},
+      {"static 1 s, 4 s of motion, force", {.still_s = 1.0, .moving_s = 4.0}},
+      {"static 0.4 s, 1 s of motion, no force", {.still_s = 0.4, .moving_s = 1.0, .has_force = false}},
+      {"no static interval, 3 s of motion, no force", {.still_s = 0.0, .moving_s = 3.0, .has_force = false}},
       {"an acceleration alone, 3.5 s", {.moving_s = 3.0, .has_speed = false, .has_force = false}}};
   std::printf("| strokes of noise that are not refused, of %d |", strokes);
   for (const auto name : asperity::test::kAirNoiseNames)
@@ -63,13 +63,13 @@ void print_shaken(int strokes) {
   for (const double tip_kg : {0.01, 0.02, 0.05, 0.1})
     std::printf("| force: the inertia of a tip of %g g | %d |\n", 1e3 * tip_kg,
                 passed({.noise = AirNoise::kShaken, .moving_s = 3.0, .tip_kg = tip_kg}, strokes));
-  std::printf("| no force, at rest 0.5 s (then limited: contact_unknown) | %d |\n",
+  std::printf("| no force, static 0.5 s (then limited: contact_unknown) | %d |\n",
               passed({.noise = AirNoise::kShaken, .moving_s = 3.0, .has_force = false}, strokes));
 }
 
 void print_found(int strokes) {
   std::printf(
-      "\n| vibration over white noise, RMS | at rest 0.4 s, 1 s of motion | at rest 1 s, 4 s of motion |\n"
+      "\n| vibration over white noise, RMS | static 0.4 s, 1 s of motion | static 1 s, 4 s of motion |\n"
       "|---|---|---|\n");
   for (const double part : {0.3, 0.5, 0.7, 1.0, 2.0})
     std::printf("| %g | %.1f %% | %.1f %% |\n", part,

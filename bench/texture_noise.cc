@@ -168,13 +168,13 @@ void run_one(const Options& options, const asperity::SimulationConfig& config, c
     return;
   }
   std::printf(
-      "%-32s r %.3f (said %.3f, at least %.3f) gain %.3f true %6.1f error %6.1f expected %6.1f um, ratio %.2f | "
-      "noise %.1f±%.1f texture %.1f at most %.1f um, place %.0f um, length %+.2f ± %.2f %%%s\n",
+      "%-32s r %.3f (stated %.3f, at least %.3f) gain %.3f true %6.1f error %6.1f expected %6.1f um, ratio %.2f | "
+      "noise %.1f±%.1f texture %.1f at most %.1f um, position %.0f um, length %+.2f ± %.2f %%%s\n",
       row.c_str(), p.correlation, likely(result.noise.snr), likely(result.noise.snr_low), p.gain, p.true_rms_um,
       p.rms_um, expected_um, ratio, 1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m,
       1e6 * result.noise.texture_rms_m, 1e6 * result.noise.at_most_m, 1e6 * result.noise.place_sigma_m,
       p.length_error_percent, 100.0 * result.noise.length_stderr_m / result.coverage.length_m,
-      result.trustworthy ? "" : " (not trusted)");
+      result.trustworthy ? "" : " (invalid)");
   if (options.spectrum) print_octaves(result);
   if (result.roughness) {
     const asperity::RoughnessResult truth =

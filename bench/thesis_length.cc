@@ -34,7 +34,7 @@ void still_hand(SimulationConfig& s) {
 
 std::vector<Variant> variants() {
   return {
-      {"as it is", [](auto&, auto&) {}},
+      {"unchanged", [](auto&, auto&) {}},
       {"no rotation noise",
        [](auto& s, auto&) {
          s.tracker.noise_rad = {0, 0, 0};
@@ -73,7 +73,7 @@ std::vector<Variant> variants() {
          s.hand.speed_mps = 0.080;
          p.thesis.trajectory.scan_speed_mps = 0.025;
        }},
-      {"no rest before and after", [](auto& s, auto&) { s.hand.rest_s = 0.0; }},
+      {"no static interval before and after", [](auto& s, auto&) { s.hand.rest_s = 0.0; }},
       {"two thirds of the tracker noise",
        [](auto& s, auto&) {
          for (double& x : s.tracker.noise_m) x *= 2.0 / 3.0;

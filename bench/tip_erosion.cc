@@ -141,8 +141,8 @@ int main(int argc, char** argv) {
                          {"--speed_mps", bench::number_into(choice.speed_mps, 1e-3, 1.0)},
                          {"--imperfection", bench::number_into(choice.imperfection, 0.0, 10.0)}});
     std::printf(
-        "| surface, seed | tip's height from surface, µm RMS | eroded, µm | ratio | the same where touched: tip, µm | "
-        "eroded, µm | applied | correction, µm | noise of the erosion, µm | its mean, µm | touched | radius at most, "
+        "| surface, seed | tip's height from surface, µm RMS | eroded, µm | ratio | the same in contact: tip, µm | "
+        "eroded, µm | applied | correction, µm | noise of the erosion, µm | its mean, µm | contact | radius at most, "
         "mm "
         "|\n");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");

@@ -96,7 +96,7 @@ void draw_faults(SimulationConfig& config, Random& random) {
   }
 }
 
-// What is not white: rests on the way, clocks, offsets that move, a tracker that is slowly off, a marker that shakes.
+// Errors that are not white: static intervals in the stroke, clocks, drifting offsets, tracker drift, a shaking marker.
 void draw_slow_errors(SimulationConfig& config, Random& random) {
   asperity::SimulatedProbeConfig& probe = config.probe;
   asperity::SimulatedTrackerConfig& tracker = config.tracker;
@@ -178,10 +178,10 @@ ScanCase simulate_own_case(std::uint64_t seed, const CaseChoice& choice) {
     if (has) out.conditions.emplace_back(name);
   };
   note(config.probe.batch_samples > 1, "batches");
-  note(config.hand.pauses > 0, "rests on the way");
-  note(config.hand.rest_s > 1.5, "long rests");
-  note(config.tracker.mount_Hz > 0.0, "a marker that shakes");
-  note(config.tracker.slow_share > 0.3, "a tracker that is slowly off");
+  note(config.hand.pauses > 0, "static intervals in the stroke");
+  note(config.hand.rest_s > 1.5, "long static intervals");
+  note(config.tracker.mount_Hz > 0.0, "shaking marker");
+  note(config.tracker.slow_share > 0.3, "tracker drift");
   note(config.hand.path == asperity::HandPathShape::kCurved, "curved");
   note(config.hand.force == asperity::HandForce::kRamp, "rising force");
   note(material != "stiff", "soft");

@@ -15,7 +15,7 @@ struct ScanCase {
   std::uint64_t seed = 0;
   std::string family;                   // of surfaces
   std::string probe;                    // "open" or "what"
-  std::vector<std::string> conditions;  // what else is worth telling apart: "batches", "rests on the way", …
+  std::vector<std::string> conditions;  // what else is worth telling apart: "batches", "tracker drift", …
   asperity::Recording recording;
   bool nothing = false;                                                  // nothing was touched
   double pitch_m = std::numeric_limits<double>::quiet_NaN();             // of a periodic surface

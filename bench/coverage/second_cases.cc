@@ -63,13 +63,13 @@ ScanCase simulate_second_case(std::uint64_t seed, const CaseChoice& choice) {
     if (has) out.conditions.emplace_back(name);
   };
   note(plan.batch_s > 0.0, "batches");
-  note(plan.rest_middle_s > 0.0, "rests on the way");
-  note(plan.rest_before_s > 1.5, "long rests");
-  note(plan.approach_s > 0.0, "out of the air");
-  note(plan.slow_share > 0.3, "a tracker that is slowly off");
+  note(plan.rest_middle_s > 0.0, "static intervals in the stroke");
+  note(plan.rest_before_s > 1.5, "long static intervals");
+  note(plan.approach_s > 0.0, "approach through the air");
+  note(plan.slow_share > 0.3, "tracker drift");
   note(plan.radius_m > 0.0, "on a cylinder");
   note(plan.force_to_N != plan.force_from_N, "rising force");
-  note(plan.states_frame_sigmas, "sigmas of each frame");
+  note(plan.states_frame_sigmas, "sigma per frame");
   out.recording = asperity::read_recording(folder.path());
   out.nothing = plan.family == "air" || plan.family == "glass";
   if (plan.family != "steps") out.pitch_m = plan.pitch_m;

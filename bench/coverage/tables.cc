@@ -84,8 +84,8 @@ void figure_header(const char* first) {
 }  // namespace
 
 void print_figures(const std::vector<ScanOutcome>& scans) {
-  std::printf("\n## Intervals of the figures (target: 90–98 %% hold, at least 90 %% determined)\n\n");
-  figure_header("figure");
+  std::printf("\n## Intervals of the values (target: 90–98 %% hold, at least 90 %% determined)\n\n");
+  figure_header("quantity");
   const std::vector<std::string> names = figure_names();
   std::vector<std::string> told;
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -98,17 +98,16 @@ void print_figures(const std::vector<ScanOutcome>& scans) {
                                  number(percent(all.told_determined, all.told), 1)));
   }
   std::printf(
-      "\nA pattern's figures by an oracle that knows the spectrum of the error alone and looks for the pitch (as "
-      "above), "
-      "and by one that knows the maker's pitch within 8 %% as well; the scans between the two hold no pitch that "
-      "could be found without being told. Rsk and Rku by an oracle that takes the noise's cumulants off (as above), "
-      "and by "
-      "one that leaves them in, whose value is near the surface's where both are Gaussian, whatever the noise:\n\n"
-      "| figure | oracle < 10 %% | of these determined, %% | told oracle < 10 %% | of these determined, %% |\n"
+      "\nThe oracle of the table above compared with an informed one. For pitch and depth, the first knows only the "
+      "spectrum of the error and searches for the pitch; the second also knows the true pitch within 8 %%. The scans "
+      "that only the second one counts hold no pitch that could be found without that knowledge. For Rsk and Rku, the "
+      "first subtracts the noise's cumulants; the second does not. Its value is near the surface's where both are "
+      "Gaussian, for any noise.\n\n"
+      "| quantity | oracle < 10 %% | of these determined, %% | informed oracle < 10 %% | of these determined, %% |\n"
       "|---|---|---|---|---|\n");
   for (const std::string& row : told) std::printf("%s\n", row.c_str());
   std::printf("\nBy family and probe:\n\n");
-  figure_header("figure | family | probe");
+  figure_header("quantity | family | probe");
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::map<std::pair<std::string, std::string>, Tally> parts;
     for (const ScanOutcome& scan : scans) parts[{scan.family, scan.probe}].add(scan.figures[k]);
@@ -128,8 +127,8 @@ void print_verdicts(const std::vector<ScanOutcome>& scans) {
                                    {"r < 0.6", [r](const ScanOutcome& s) { return r(s) < 0.6; }},
                                    {"0.6 to 0.9", [r](const ScanOutcome& s) { return r(s) >= 0.6 && r(s) < 0.9; }},
                                    {"r ≥ 0.9", [r](const ScanOutcome& s) { return r(s) >= 0.9; }}};
-  std::printf("\n## Verdicts (target: r < 0.6 trusted at most 2 %%, r ≥ 0.9 at least 90 %%)\n\n");
-  std::printf("| results | probe | scans | trusted | %% |\n|---|---|---|---|---|\n");
+  std::printf("\n## Verdicts (target: r < 0.6 valid at most 2 %%, r ≥ 0.9 at least 90 %%)\n\n");
+  std::printf("| results | probe | scans | valid | %% |\n|---|---|---|---|---|\n");
   for (const Class& one : classes) {
     for (const char* probe : {"", "open", "what"}) {
       std::size_t count = 0, trusted = 0;
@@ -143,8 +142,8 @@ void print_verdicts(const std::vector<ScanOutcome>& scans) {
     }
   }
   std::printf(
-      "\n| family | probe | scans | median r | lowest r | trusted | refused though r ≥ 0.9 | trusted though r < "
-      "0.6 | failed |\n|---|---|---|---|---|---|---|---|---|\n");
+      "\n| family | probe | scans | median r | lowest r | valid | invalid though r ≥ 0.9 | valid though r < 0.6 "
+      "| failed |\n|---|---|---|---|---|---|---|---|---|\n");
   std::map<std::pair<std::string, std::string>, std::vector<const ScanOutcome*>> parts;
   for (const ScanOutcome& scan : scans) parts[{scan.family, scan.probe}].push_back(&scan);
   for (const auto& [part, list] : parts) {
@@ -169,9 +168,9 @@ void print_verdicts(const std::vector<ScanOutcome>& scans) {
     if (!reasons.empty()) std::printf("\n%s:\n\n", title);
     for (const auto& [reason, count] : reasons) std::printf("- %zu: %s\n", count, reason.c_str());
   };
-  print_reasons("Refused though r ≥ 0.9", [r](const ScanOutcome& s) { return !s.trusted && r(s) >= 0.9; });
-  print_reasons("Trusted though r < 0.6", [r](const ScanOutcome& s) { return s.trusted && r(s) < 0.6; });
-  print_reasons("Refused at r < 0.6", [r](const ScanOutcome& s) { return !s.trusted && r(s) < 0.6; });
+  print_reasons("Invalid though r ≥ 0.9", [r](const ScanOutcome& s) { return !s.trusted && r(s) >= 0.9; });
+  print_reasons("Valid though r < 0.6", [r](const ScanOutcome& s) { return s.trusted && r(s) < 0.6; });
+  print_reasons("Invalid at r < 0.6", [r](const ScanOutcome& s) { return !s.trusted && r(s) < 0.6; });
 }
 
 void print_sigmas(const std::vector<ScanOutcome>& scans) {
@@ -239,7 +238,7 @@ void print_conditions(const std::vector<ScanOutcome>& scans) {
 
 void print_bands(const std::vector<ScanOutcome>& scans) {
   std::printf(
-      "\n## The texture's error by frequency: actual / said by profile.noise / the surface itself, µm RMS, "
+      "\n## The texture's error by frequency: actual / stated by profile.noise / the surface itself, µm RMS, "
       "medians\n\n");
   std::printf("| family | probe | scans |");
   for (std::size_t b = 0; b < kBands; ++b) std::printf(" %g–%g /mm |", kBandEdges[b], kBandEdges[b + 1]);

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
          {"--family", [&](auto value) { family = value; }},
          {"--probe", [&](auto value) { probe = bench::is_first(value, "open", "what") ? "open" : "what"; }},
          {"-o", [&](auto value) { folder = value; }}});
-    if (folder.empty()) throw asperity::Error("-o: which folder?");
+    if (folder.empty()) throw asperity::Error("-o needs a folder");
     for (std::uint64_t i = seed; i < seed + count; ++i) {
       const second_bench::ScanPlan plan = second_bench::draw_plan(i, family, probe);
       second_bench::write_scan(plan, std::filesystem::path(folder) / std::to_string(i));

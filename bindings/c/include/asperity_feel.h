@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define ASPERITY_FEEL_MAJOR 1
-#define ASPERITY_FEEL_MINOR 0
+#define ASPERITY_FEEL_MINOR 1
 
 /* What became of a call. On anything but ASPERITY_OK nothing was changed, handles that were to be written are NULL, and
  * asperity_last_error() says why. */
@@ -55,7 +55,7 @@ ASPERITY_FEEL_API const char *asperity_status_text(asperity_status status);
 /* Why the last call of this thread that did not end with ASPERITY_OK did not; UTF-8, at most 1023 bytes, valid until
  * the thread's next such call. Empty if there was none. */
 ASPERITY_FEEL_API const char *asperity_last_error(void);
-/* "1.0 (asperity 0.2.0)" */
+/* "1.1 (asperity 0.2.0)" */
 ASPERITY_FEEL_API const char *asperity_feel_version(void);
 
 /* --- Scenes ------------------------------------------------------------------------------------------------------ */
@@ -77,6 +77,15 @@ ASPERITY_FEEL_API size_t asperity_scene_object_count(const asperity_scene *scene
 /* The file that an object's mesh was read from, "" for one of asperity_scene_from_mesh; NULL for an object that there
  * is not. Valid until the scene is changed. */
 ASPERITY_FEEL_API const char *asperity_scene_object_name(const asperity_scene *scene, size_t object);
+/* An object's mesh in its own frame, to show it: `*vertex_count` points (x, y, z each) and `*triangle_count` triangles
+ * (three indices each), of which at most vertex_capacity and triangle_capacity are written. With an array NULL only its
+ * count is set. Since 1.1. */
+ASPERITY_FEEL_API asperity_status asperity_scene_mesh(const asperity_scene *scene, size_t object, double *vertices_m,
+                                                      size_t vertex_capacity, size_t *vertex_count, unsigned *triangles,
+                                                      size_t triangle_capacity, size_t *triangle_count);
+/* An object's pose in the scene's world frame, as asperity_scene_set_pose sets it. Since 1.1. */
+ASPERITY_FEEL_API asperity_status asperity_scene_pose(const asperity_scene *scene, size_t object, double position_m[3],
+                                                      double rotation_wxyz[4]);
 /* An object's pose: its origin, and its orientation as a quaternion w, x, y, z (normalised here). */
 ASPERITY_FEEL_API asperity_status asperity_scene_set_pose(asperity_scene *scene, size_t object,
                                                           const double position_m[3], const double rotation_wxyz[4]);

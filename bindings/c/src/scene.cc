@@ -1,5 +1,6 @@
 // asperity_scene of asperity_feel.h.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ using asperity::c_library::BadArgument;
 using asperity::c_library::guarded;
 using asperity::c_library::there;
 
-asperity::SceneObject& object_of(asperity_scene* scene, std::size_t object) {
-  asperity::Scene& of = there(scene, "scene").scene;
+template <class SceneHandle>  // of a constant scene: a constant object
+auto& object_of(SceneHandle* scene, std::size_t object) {
+  auto& of = there(scene, "scene").scene;
   if (object >= of.objects.size()) {
     throw BadArgument("object " + std::to_string(object) + ": the scene has " + std::to_string(of.objects.size()));
   }
@@ -99,6 +101,37 @@ size_t asperity_scene_object_count(const asperity_scene* scene) {
 const char* asperity_scene_object_name(const asperity_scene* scene, size_t object) {
   if (object >= asperity_scene_object_count(scene)) return nullptr;
   return scene->scene.objects[object].mesh_file.c_str();
+}
+
+asperity_status asperity_scene_mesh(const asperity_scene* scene, size_t object, double* vertices_m,
+                                    size_t vertex_capacity, size_t* vertex_count, unsigned* triangles,
+                                    size_t triangle_capacity, size_t* triangle_count) {
+  return guarded([&] {
+    const asperity::SceneObject& of = object_of(scene, object);
+    const asperity::MeshFile& mesh = of.mesh;
+    there(vertex_count, "vertex_count") = mesh.vertices.size();
+    there(triangle_count, "triangle_count") = mesh.triangles.size();
+    for (std::size_t i = 0; vertices_m != nullptr && i < std::min(vertex_capacity, mesh.vertices.size()); ++i)
+      Eigen::Vector3d::Map(vertices_m + 3 * i) = of.unit_m * mesh.vertices[i];
+    for (std::size_t i = 0; triangles != nullptr && i < std::min(triangle_capacity, mesh.triangles.size()); ++i) {
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        triangles[3 * i + corner] = static_cast<unsigned>(mesh.triangles[i][corner]);
+    }
+  });
+}
+
+asperity_status asperity_scene_pose(const asperity_scene* scene, size_t object, double position_m[3],
+                                    double rotation_wxyz[4]) {
+  return guarded([&] {
+    const asperity::Pose& pose = object_of(scene, object).T_world_mesh;
+    double* position = &there(position_m, "position_m");
+    double* q = &there(rotation_wxyz, "rotation_wxyz");
+    Eigen::Vector3d::Map(position) = pose.translation_m;
+    q[0] = pose.rotation.w();
+    q[1] = pose.rotation.x();
+    q[2] = pose.rotation.y();
+    q[3] = pose.rotation.z();
+  });
 }
 
 asperity_status asperity_scene_set_pose(asperity_scene* scene, size_t object, const double position_m[3],

@@ -225,6 +225,39 @@ TEST_F(CLibrary, PosesMoveObjectsAndMaterialsCount) {
   asperity_scene_free(flat);
 }
 
+TEST_F(CLibrary, MeshesAndPosesAreGivenBack) {
+  asperity_scene* flat = nullptr;
+  ASSERT_EQ(make_mesh(&flat), ASPERITY_OK);
+  std::size_t vertices = 0, triangles = 0;
+  ASSERT_EQ(asperity_scene_mesh(flat, 0, nullptr, 0, &vertices, nullptr, 0, &triangles), ASPERITY_OK);
+  ASSERT_EQ(3 * vertices, vertices_m_.size());
+  std::vector<double> at_m(3 * vertices + 1, -7.0);
+  std::vector<unsigned> corners(3 * triangles, 99);
+  ASSERT_EQ(asperity_scene_mesh(flat, 0, at_m.data(), vertices, &vertices, corners.data(), triangles, &triangles),
+            ASPERITY_OK);
+  EXPECT_TRUE(std::equal(vertices_m_.begin(), vertices_m_.end(), at_m.begin()));
+  EXPECT_EQ(at_m.back(), -7.0);
+  EXPECT_LT(*std::max_element(corners.begin(), corners.end()), vertices);
+  // No more is written than there is room for.
+  at_m.assign(at_m.size(), -7.0);
+  ASSERT_EQ(asperity_scene_mesh(flat, 0, at_m.data(), 1, &vertices, nullptr, 0, &triangles), ASPERITY_OK);
+  EXPECT_EQ(at_m[3], -7.0);
+  EXPECT_EQ(asperity_scene_mesh(flat, 1, nullptr, 0, &vertices, nullptr, 0, &triangles), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(asperity_scene_mesh(flat, 0, nullptr, 0, nullptr, nullptr, 0, &triangles), ASPERITY_BAD_ARGUMENT);
+
+  const std::array<double, 3> to_m{0.01, -0.02, 0.03};
+  const std::array<double, 4> turned{0.0, 0.0, 0.0, 2.0};
+  ASSERT_EQ(asperity_scene_set_pose(flat, 0, to_m.data(), turned.data()), ASPERITY_OK);
+  std::array<double, 3> position_m{};
+  std::array<double, 4> rotation{};
+  ASSERT_EQ(asperity_scene_pose(flat, 0, position_m.data(), rotation.data()), ASPERITY_OK);
+  EXPECT_EQ(position_m, to_m);
+  EXPECT_EQ(rotation, (std::array<double, 4>{0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(asperity_scene_pose(flat, 1, position_m.data(), rotation.data()), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(asperity_scene_pose(flat, 0, nullptr, rotation.data()), ASPERITY_BAD_ARGUMENT);
+  asperity_scene_free(flat);
+}
+
 TEST_F(CLibrary, WrongArgumentsAreNamedAndChangeNothing) {
   asperity_scene* scene = scene_;
   EXPECT_EQ(asperity_scene_read("no/such.scene.json", &scene), ASPERITY_BAD_FILE);
@@ -359,7 +392,7 @@ TEST(CLibraryLayout, OfVersionOneStays) {
   static_assert(offsetof(asperity_touch, force_N) == 8 && offsetof(asperity_touch, proxy_m) == 104);
   static_assert(offsetof(asperity_touch, vibration_N) == 136 && offsetof(asperity_touch, object) == 216);
   static_assert(offsetof(asperity_touch, starts_inside) == 232 && sizeof(asperity_touch) == 240);
-  EXPECT_EQ(std::string(asperity_feel_version()).substr(0, 4), "1.0 ");
+  EXPECT_EQ(std::string(asperity_feel_version()).substr(0, 4), "1.1 ");
 }
 
 }  // namespace

@@ -21,9 +21,11 @@ PYBIND11_MODULE(_asperity, module) {
   py::register_exception<asperity::Error>(module, "Error", PyExc_ValueError).attr("__doc__") =
       "What was given cannot be used; the text says what, where and why.";
   asperity::python::add_recordings(module);
+  asperity::python::add_importing(module);
   asperity::python::add_textures(module);
   asperity::python::add_roughness(module);
   asperity::python::add_processing(module);
   asperity::python::add_meshes(module);
   asperity::python::add_rendering(module);
+  asperity::python::add_registering(module);
 }

@@ -10,8 +10,12 @@
 // The parts of the Python module, each a file.
 namespace asperity::python {
 
+namespace py = pybind11;
+
 void add_recordings(pybind11::module_& module);
+void add_importing(pybind11::module_& module);
 void add_processing(pybind11::module_& module);
+void add_registering(pybind11::module_& module);
 void add_roughness(pybind11::module_& module);
 void add_textures(pybind11::module_& module);
 void add_meshes(pybind11::module_& module);

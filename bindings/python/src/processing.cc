@@ -1,5 +1,8 @@
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -8,12 +11,14 @@
 #include "asperity/base/config.h"
 #include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
+#include "asperity/pipeline/merge_results.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
-#include "asperity/verdict/verdict.h"
+#include "asperity/session/merge_input.h"
 #include "interruptible.h"
 #include "parts.h"
+#include "verdicts.h"
 
 namespace asperity::python {
 
@@ -24,6 +29,7 @@ struct Result {
   ProcessResult result;
   std::shared_ptr<const Recording> recording;
   std::string name;
+  std::optional<MergeConfig> merged;  // of strokes: without a recording and a motion of its own
 };
 
 std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, const std::string& name,
@@ -41,21 +47,33 @@ std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, cons
 void write(const Result& of, const std::filesystem::path& folder) {
   const py::gil_scoped_release unlocked;
   OutputFolder out(folder, naming_added(is_result_folder));
-  write_result(out.path(), of.result, *of.recording, of.name);
+  if (of.merged) {
+    write_merge(out.path(), of.result, *of.merged, of.name);
+  } else {
+    write_result(out.path(), of.result, *of.recording, of.name);
+  }
   out.commit();
 }
 
-std::vector<py::dict> verdicts_of(const Result& of) {
-  std::vector<py::dict> out;
-  for (const Verdict& verdict : of.result.verdicts) {
-    py::dict one;
-    one["code"] = verdict.code;
-    one["severity"] = std::string(kSeverityNames[static_cast<std::size_t>(verdict.severity)]);
-    one["message"] = verdict.message;
-    one["remedy"] = verdict.remedy;
-    out.push_back(one);
-  }
-  return out;
+// Strokes over one line as one profile. Folders are recordings, or what `write` and `asperity process` have written
+// with profile.remove_noise off.
+std::shared_ptr<Result> merge(const std::vector<std::filesystem::path>& strokes, const py::dict& settings) {
+  MergeConfig config;
+  set_all(config, settings);
+  if (strokes.size() < 2) throw py::value_error("strokes: at least two are wanted");
+  return interruptible([&](const Observer& observer) {
+    std::vector<std::string> paths;
+    for (const std::filesystem::path& stroke : strokes) paths.push_back(stroke.string());
+    const std::vector<std::string> names = stroke_names(paths);
+    MergeInput input;
+    for (std::size_t i = 0; i < paths.size(); ++i) add_stroke(input, paths[i], names[i], config, observer);
+    auto out = std::make_shared<Result>();
+    out->name = input.title();
+    out->result = merge_results(input.strokes, out->name, config);
+    if (out->result.texture) note_sources(*out->result.texture, input.sources);
+    out->merged = config;
+    return out;
+  });
 }
 
 // A property that is a view of a vector in the result.
@@ -75,7 +93,9 @@ void add_processing(py::module_& module) {
       .def_property_readonly(
           "verdict", [](const Result& of) { return of.result.verdict; },
           "The verdicts in a sentence; empty if none is invalid or limited.")
-      .def_property_readonly("verdicts", &verdicts_of, "The worst first: code, severity, message, remedy.")
+      .def_property_readonly(
+          "verdicts", [](const Result& of) { return verdicts_of(of.result.verdicts); },
+          "The worst first: code, severity, message, remedy.")
       .def_property_readonly("s_m", viewed([](const R& r) -> auto& { return r.profile.s_m; }),
                              "(n,) arc length along the base path, m, evenly spaced")
       .def_property_readonly("height_m", viewed([](const R& r) -> auto& { return r.profile.height_m; }),
@@ -120,14 +140,20 @@ void add_processing(py::module_& module) {
       .def_property_readonly(
           "summary",
           [](const Result& of) {
-            return py::module_::import("json").attr("loads")(
-                result_json(of.result, *of.recording, of.name).dump_repaired());
+            return py::module_::import("json").attr("loads")((of.merged
+                                                                  ? merge_json(of.result, *of.merged, of.name)
+                                                                  : result_json(of.result, *of.recording, of.name))
+                                                                 .dump_repaired());
           },
           "All of result.json as a dict: figures with their standard errors, verdicts, settings.")
       .def(
           "write", &write, py::arg("folder"),
           "Write trajectory.csv, profile.csv, spectrum.csv, texture.json and result.json into a folder; one that holds "
           "anything but a result is not replaced.");
+  module.def("merge", &merge, py::arg("strokes"), py::arg("settings") = py::dict(),
+             "One profile of two or more strokes over one line, aligned and averaged by their noise: folders of "
+             "recordings, or of results that were made with profile.remove_noise off. settings: those of `asperity "
+             "merge --set`. `summary` is that of the merge; there is no motion.");
   module.def("process", &process, py::arg("recording").none(false), py::arg("name") = "recording",
              py::arg("settings") = py::dict(),
              "From a recording to profile, roughness and texture. settings: those of `asperity process --set`.");

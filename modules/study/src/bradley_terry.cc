@@ -55,7 +55,8 @@ Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& count, const Eigen::VectorX
 BradleyTerry fit_bradley_terry(const Eigen::MatrixXd& wins) {
   const Eigen::Index n = wins.rows();
   if (n != wins.cols()) throw Error("worths: the table of wins is not square");
-  if (!wins.allFinite() || (wins.array() < 0.0).any()) throw Error("worths: a count of wins is negative or no number");
+  if (!wins.allFinite() || (wins.array() < 0.0).any())
+    throw Error("worths: a count of wins is negative or not a number");
   BradleyTerry out;
   if (n < 2 || reached(wins, true) < n || reached(wins, false) < n) return out;
   out.exists = true;

@@ -75,7 +75,7 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
              "'" + printable(out.back()) + "' begins or ends with a blank, which the log cannot hold; rename it");
     }
     if (std::count(out.begin(), out.end(), out.back()) > 1) {
-      refuse(where, "stimuli", "'" + printable(out.back()) + "' is there twice");
+      refuse(where, "stimuli", "'" + printable(out.back()) + "' is given twice");
     }
   }
   return out;

@@ -107,12 +107,12 @@ void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
     log.since_begin_s = time_of(rows, since);
     if (rows.cell(rows.require("event")) == "taken_back") {
       if (!session.can_take_back() || rows.integer(trial) != session.answers().back().trial.number) {
-        rows.fail(trial, "takes back an answer that was not given");
+        rows.fail(trial, "withdraws an answer that was not given");
       }
       session.take_back();
       continue;
     }
-    if (rows.cell(rows.require("event")) != "answer") rows.fail(0, "is none that this program knows");
+    if (rows.cell(rows.require("event")) != "answer") rows.fail(0, "is not an event that this program knows");
     if (!session.trial()) rows.fail(trial, "all trials are answered before it");
     const Trial& expected = *session.trial();
     std::string cells;
@@ -179,11 +179,11 @@ StudyLog parse_study_log(std::string_view text, const std::string& name) {
   CsvReader rows(text, name);
   std::string columns;
   for (const std::string& column : rows.columns()) columns += (columns.empty() ? "" : ",") + column;
-  if (columns + '\n' != kColumns) throw Error(name + ":2: has not the columns of a study's log");
+  if (columns + '\n' != kColumns) throw Error(name + ":2: does not have the columns of a study's log");
   follow_rows(out, rows, name);
   out.whole_bytes = text.rfind('\n') + 1;
   if (rows.truncated()) {
-    out.problems.push_back({"cut_off", name + ": the last row was cut off, and does not count"});
+    out.problems.push_back({"cut_off", name + ": the last row was cut off and does not count"});
   }
   return out;
 }
@@ -233,7 +233,7 @@ void StudyLogFile::append(std::string_view row) {
       const int reason = errno;
       // Half a row would be taken for one that was cut off, and what comes after it would be lost.
       if (::ftruncate(file_, static_cast<off_t>(bytes_)) != 0)
-        fail(name_, "cannot be written, nor its half row taken out");
+        fail(name_, "cannot be written, and its incomplete row cannot be removed");
       errno = reason;
       fail(name_, "cannot be written");
     }
@@ -242,7 +242,7 @@ void StudyLogFile::append(std::string_view row) {
 }
 
 void StudyLogFile::sync() const {
-  if (::fdatasync(file_) != 0) fail(name_, "cannot be brought to the disk");
+  if (::fdatasync(file_) != 0) fail(name_, "cannot be stored on the disk");
 }
 
 }  // namespace asperity

@@ -71,7 +71,7 @@ const StudyAnswer& StudySession::give(int value, double response_s, double since
 }
 
 void StudySession::take_back() {
-  if (!may_take_back_) throw Error("no answer can be taken back");
+  if (!may_take_back_) throw Error("no answer can be withdrawn");
   answers_.pop_back();
   may_take_back_ = false;
   // A track goes the same way again with the answers that are left.

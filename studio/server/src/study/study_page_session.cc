@@ -80,7 +80,7 @@ struct StudyPage::Opening {
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestStudyLog_bytes), name);
-    if (!read.session.trial()) throw Advice(name + ": all its trials have been answered", "Open its results.");
+    if (!read.session.trial()) throw Advice(name + ": all trials are answered", "Open its results.");
     stimuli = read_stimuli(read.session.study(), project);
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);
     log = std::make_shared<StudyLogFile>(StudyLogFile::open(file, read.whole_bytes));

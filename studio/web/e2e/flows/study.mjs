@@ -1,4 +1,4 @@
-// A study: two textures in both orders, blind, over a reload and a restart, an answer taken back; the log and its results; a staircase begun.
+// A study: two textures in both orders, blind, over a reload and a restart, an answer withdrawn; the log and its results; a staircase begun.
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { open, type } from "../lib/ui.mjs";
@@ -90,7 +90,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     await progress("Trial 2 of 2");
   });
 
-  await step("the last answer is taken back, and given again", async () => {
+  await step("the last answer is withdrawn, and given again", async () => {
     await touch();
     await page.keyboard.press("1");
     await session.getByText("That was the last one").waitFor();
