@@ -114,6 +114,14 @@ def test_a_command_line_that_is_at_hand_agrees(recording, result, tmp_path):
     np.testing.assert_array_equal(table["texture_m"], result.texture_m)
 
 
+def test_the_texture_is_that_of_a_result(result):
+    texture = asperity.extract_texture(result.height_m, result.spacing_m)
+    assert np.corrcoef(texture[200:-200], result.texture_m[200:-200])[0, 1] > 0.99  # its noise was taken off
+    x = 25e-6 * np.arange(8000)
+    short, long = (np.sin(2 * np.pi * x / wave) for wave in (1e-3, 50e-3))
+    np.testing.assert_allclose(asperity.extract_texture(short + long, 25e-6)[800:-800], short[800:-800], atol=0.05)
+
+
 def test_roughness_of_a_sine_is_in_closed_form():
     spacing, amplitude = 1e-6, 3e-6
     z = amplitude * np.sin(2 * np.pi * np.arange(40000) * spacing / 0.2e-3)

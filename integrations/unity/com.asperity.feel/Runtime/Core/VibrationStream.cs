@@ -17,6 +17,7 @@ namespace Asperity.Feel
         private double read;   // read position in forces, of the sound alone
         private double lastIn, lastOut, level;
         private bool running;
+        private long ended;    // forces that had come when the sound ran out of them
 
         /// <summary>`rate_Hz` of the forces; at most `capacity` of them wait.</summary>
         public VibrationStream(double rate_Hz, int capacity)
@@ -48,7 +49,7 @@ namespace Asperity.Feel
             // A third of the ring, or what one call takes, is kept in advance.
             double behind = Math.Min(ring.Length / 2.0, Math.Max(ring.Length / 3.0, frames * step + 2.0));
             if (running && until - read > ring.Length - 2) running = false;  // the loop has overtaken it
-            if (!running && until >= behind + 2) { read = until - behind; running = true; }
+            if (!running && until - ended >= behind + 2) { read = until - behind; running = true; }
             for (int i = 0; i < frames; ++i)
             {
                 double force = 0.0;
@@ -62,6 +63,7 @@ namespace Asperity.Feel
                 }
                 else
                 {
+                    if (running) ended = until;
                     running = false;
                     force = lastIn;
                     level *= fade;
