@@ -29,8 +29,8 @@ std::unique_ptr<const asperity::RenderModel> model_of(const asperity_scene* scen
 
 void copy(const Eigen::Vector3d& from, double (&to)[3]) noexcept { Eigen::Vector3d::Map(to) = from; }
 
-asperity_touch touch_of(const asperity::ServoOutput& output, double vibration_N) noexcept {
-  asperity_touch out{};
+// All fields but the size.
+void fill(const asperity::ServoOutput& output, double vibration_N, asperity_touch& out) noexcept {
   copy(output.force_N, out.force_N);
   copy(output.contact_N, out.contact_N);
   copy(output.texture_N, out.texture_N);
@@ -46,7 +46,6 @@ asperity_touch touch_of(const asperity::ServoOutput& output, double vibration_N)
   out.triangle = output.contact.triangle;
   out.sticking = output.sticking ? 1 : 0;
   out.starts_inside = output.starts_inside ? 1 : 0;
-  return out;
 }
 
 // `motion` and `touch` may be of another version's size.
@@ -61,8 +60,9 @@ void step(asperity_feel& feel, const asperity::RenderModel& model, const std::by
   const asperity::ServoOutput output = asperity::render_step(model, feel.state, device);
   constexpr double kLongest_s = 1.0;  // between two steps
   if (in.dt_s > 0.0) feel.t_ns += static_cast<std::int64_t>(1e9 * std::min(in.dt_s, kLongest_s));
-  asperity_touch out = touch_of(output, feel.vibration.push(output.force_N, device.v_world_mps, feel.t_ns));
+  asperity_touch out;
   out.size = touch_bytes;
+  fill(output, feel.vibration.push(output.force_N, device.v_world_mps, feel.t_ns), out);
   std::memcpy(touch, &out, std::min(touch_bytes, sizeof out));
 }
 
