@@ -20,7 +20,7 @@
 #include "json_of.h"
 #include "option_units.h"
 #include "stroke_input.h"
-#include "texture_input.h"
+#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 

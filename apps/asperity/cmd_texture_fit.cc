@@ -29,7 +29,7 @@
 #include "commands.h"
 #include "option_units.h"
 #include "stroke_input.h"
-#include "texture_input.h"
+#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 
@@ -176,14 +176,14 @@ class TextureFitCommand : public Command {
       return found.periodic ? found.pitch_m : 0.0;
     };
     input.read_areal_samples = [&](const std::vector<std::string>& files) {
-      return asperity::app::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm);
+      return asperity::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm);
     };
     input.read_series = [](const std::string& file) { return asperity::app::read_series(file); };
     input.read_recording_or_series = [](const std::string& file) {
       if (is_stroke_folder(file)) return series_of_stroke(file);
       return std::filesystem::is_directory(file) ? series_of_recording(file) : asperity::app::read_series(file);
     };
-    input.is_texture_file = [](const std::string& file) { return asperity::app::is_texture_file(file); };
+    input.is_texture_file = [](const std::string& file) { return asperity::is_texture_file(file); };
     input.roughness = [](const std::vector<std::vector<double>>& lines_m, double spacing_m) {
       return roughness_of(lines_m, spacing_m);
     };

@@ -13,7 +13,7 @@
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
-#include "texture_input.h"
+#include "asperity/session/texture_input.h"
 #include "texture_lines.h"
 
 namespace asperity::app {

@@ -25,7 +25,7 @@
 #include "roughness_figure.h"
 #include "roughness_tables.h"
 #include "stroke_input.h"
-#include "texture_input.h"
+#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 

@@ -10,8 +10,8 @@ namespace asperity::studio {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kKindNames{"recording", "scene", "mesh",      "texture", "result",
-                                                     "image",     "study", "study-log", "table"};
+constexpr std::array<std::string_view, 10> kKindNames{"recording", "scene", "mesh",      "texture", "result",
+                                                      "image",     "study", "study-log", "table",   "surface"};
 constexpr std::int64_t kLook_ns = 2'000'000'000;
 
 Json entries_json(const Project& project) {

@@ -32,10 +32,12 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   if (name.ends_with(".study.csv")) return EntryKind::kStudyLog;
   constexpr std::array<std::string_view, 6> meshes{".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
   constexpr std::array<std::string_view, 2> images{".png", ".pgm"};
+  constexpr std::array<std::string_view, 8> surfaces{".gsf", ".sdf", ".sur", ".pro", ".x3p", ".smd", ".tif", ".tiff"};
   constexpr std::array<std::string_view, 5> tables{".csv", ".tsv", ".txt", ".dat", ".log"};
   const std::string extension = path.extension().string();
   if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return EntryKind::kMesh;
   if (std::find(images.begin(), images.end(), extension) != images.end()) return EntryKind::kImage;
+  if (std::find(surfaces.begin(), surfaces.end(), extension) != surfaces.end()) return EntryKind::kSurface;
   if (std::find(tables.begin(), tables.end(), extension) != tables.end()) return EntryKind::kTable;
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { addedWords, isTable } from "../src/add/adding";
+import { addedWords, holdsHeights, isTable } from "../src/add/adding";
 import { chosenFiles } from "../src/add/dropped";
+import { textureName } from "../src/add/SurfaceDialog";
 import { columnsText, recordingName, withMeaning, type PlanMeaning } from "../src/add/importPlan";
 
 const file = (path: string): File => ({ name: path.split("/").pop()!, webkitRelativePath: path.includes("/") ? path : "" }) as File;
@@ -20,6 +21,16 @@ describe("chosen files", () => {
 
   it("are tables by their endings, but not a study's log", () => {
     expect(["a.CSV", "b.tsv", "c.txt", "d.study.csv", "e.obj"].map(isTable)).toEqual([true, true, true, false, false]);
+  });
+});
+
+describe("files of heights", () => {
+  it("are an instrument's, and tables that may be", () => {
+    expect(["a.SDF", "b.x3p", "c.tif", "d.csv", "e.obj", "f.study.csv"].map(holdsHeights)).toEqual([true, true, true, true, false, false]);
+  });
+
+  it("give a texture their name", () => {
+    expect(textureName("maps/part 3.sdf")).toBe("part 3.texture.json");
   });
 });
 

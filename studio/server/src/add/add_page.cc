@@ -7,9 +7,11 @@
 
 #include "add/addition.h"
 #include "add/import_plan.h"
+#include "add/surface_look.h"
 #include "asperity/base/base64.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/texture/texture_file.h"
 #include "config_fields.h"
 #include "write_target.h"
 
@@ -58,6 +60,12 @@ class AddPage : public Page {
           shared_.jobs, request, "", "import.look",
           [choice = import_choice(shared_.project, request.args())](const Observer&) { return import_plan(choice); });
     });
+    calls.add("surface.look", [this](const Request& request) {
+      answer_by_job(shared_.jobs, request, "", "surface.look",
+                    [file = shared_.project.existing(request.text("file")),
+                     spacing_m = spacing_of(request)](const Observer&) { return look_at_surface(file, spacing_m); });
+    });
+    calls.add("surface.texture", [this](const Request& request) { write_texture_of(request); });
     calls.add("import.write", [this](const Request& request) { write_import(request); });
   }
 
@@ -124,6 +132,29 @@ class AddPage : public Page {
     open_.erase(number);
     shared_.jobs.start_in(
         "add", "", "", [addition](const Observer&) {}, nullptr);
+  }
+
+  // Metres; 0 where the call states none.
+  static double spacing_of(const Request& request) {
+    const double spacing_mm = request.number("spacing_mm");
+    if (!(spacing_mm >= 0.0 && spacing_mm <= 1e3)) throw Error("spacing_mm: must be from 0 to 1000");
+    return 1e-3 * spacing_mm;
+  }
+
+  void write_texture_of(const Request& request) {
+    const std::string name = request.text("name");
+    if (!name.ends_with(".texture.json"))
+      throw Advice("'" + name + "' does not end in .texture.json", "Give the texture such a name.");
+    answer_by_job(shared_.jobs, request, "Texture " + name, "surface.texture",
+                  [file = shared_.project.existing(request.text("file")), spacing_m = spacing_of(request),
+                   target = write_target(shared_.project, request), name](const Observer& observer) {
+                    observer.update("fitting", 0.0);
+                    const Texture texture = texture_of_surface(
+                        file, spacing_m, name.substr(0, name.size() - std::string(".texture.json").size()));
+                    observer.update("writing", 0.9);
+                    write_texture(target, texture);
+                    return Json{{"texture", name}};
+                  });
   }
 
   void write_import(const Request& request) {

@@ -7,14 +7,17 @@ import { attempt, Button } from "../ui/Button";
 import { Dialog } from "../ui/Dialog";
 import { entries } from "../ui/entries";
 import { complain } from "../ui/toast";
-import { add, added, adding, isTable, stopAdding } from "./adding";
+import { add, added, adding, holdsHeights, isTable, stopAdding } from "./adding";
 import { chosenFiles, droppedFiles } from "./dropped";
 import { ImportDialog } from "./ImportDialog";
+import { SurfaceDialog } from "./SurfaceDialog";
 import "./add.css";
 
 /** Files into the project's folder by button and by drop, and other programs' tables as recordings. */
 export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): void; onOpen(): void }) {
   const [importing, setImporting] = useState<string | null>(null);
+  const [surface, setSurface] = useState<string | null>(null);
+  const surfaces = entries.value.filter(({ kind }) => kind === "surface");
   const files = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
   const over = useDrop(onOpen);
@@ -38,7 +41,7 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
           <p>Drop files or folders to add them to the project</p>
         </div>
       )}
-      <Dialog open={open && importing === null} title="Add files" onClose={onClose}>
+      <Dialog open={open && importing === null && surface === null} title="Add files" onClose={onClose}>
         <p>
           Files are copied into the project's folder. Existing files are not replaced. Recordings are folders: add the whole folder. You can also drop files
           and folders anywhere on this window.
@@ -79,6 +82,11 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
                       Open
                     </Button>
                   )}
+                  {holdsHeights(name) && (
+                    <Button kind="quiet" label={`Heights of ${name}`} onClick={() => setSurface(name)}>
+                      Heights
+                    </Button>
+                  )}
                   {isTable(name) && (
                     <Button kind="quiet" label={`Import ${name}`} onClick={() => setImporting(name)}>
                       Import …
@@ -89,7 +97,23 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
             })}
           </ul>
         )}
+        {surfaces.length > 0 && (
+          <>
+            <h3>Surfaces in the project</h3>
+            <ul class="add-list" aria-label="Surfaces" data-testid="surfaces">
+              {surfaces.map(({ name }) => (
+                <li key={name}>
+                  <span>{name}</span>
+                  <Button kind="quiet" label={`Heights of ${name}`} onClick={() => setSurface(name)}>
+                    Heights
+                  </Button>
+                </li>
+              ))}
+            </ul>
+          </>
+        )}
       </Dialog>
+      {surface !== null && <SurfaceDialog file={surface} onClose={() => setSurface(null)} />}
       {importing !== null && (
         <ImportDialog
           first={importing}

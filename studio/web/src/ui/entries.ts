@@ -3,7 +3,7 @@ import { signal, type ReadonlySignal } from "@preact/signals";
 import { call, onEvent } from "../net/connection";
 import { complain } from "./toast";
 
-export type EntryKind = "recording" | "scene" | "mesh" | "texture" | "result" | "image" | "study" | "study-log" | "table";
+export type EntryKind = "recording" | "scene" | "mesh" | "texture" | "result" | "image" | "study" | "study-log" | "table" | "surface";
 
 export interface Entry {
   kind: EntryKind;

@@ -6,7 +6,7 @@
 
 namespace asperity::studio {
 
-enum class EntryKind { kRecording, kScene, kMesh, kTexture, kResult, kImage, kStudy, kStudyLog, kTable };
+enum class EntryKind { kRecording, kScene, kMesh, kTexture, kResult, kImage, kStudy, kStudyLog, kTable, kSurface };
 
 // Something in the project's folder that the studio can open.
 struct Entry {

@@ -1,4 +1,4 @@
-#include "texture_input.h"
+#include "asperity/session/texture_input.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/recording/fingerprint.h"
 
-namespace asperity::app {
+namespace asperity {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::map<std::string, double> roughness_of(const std::vector<std::vector<double>
   return sum;
 }
 
-}  // namespace asperity::app
+}  // namespace asperity

@@ -8,7 +8,7 @@
 #include "asperity/texture/fit_areal.h"
 #include "asperity/texture/texture.h"
 
-namespace asperity::app {
+namespace asperity {
 
 // True for a name that ends in .json: a texture file. Everything else is read as heights.
 bool is_texture_file(const std::string& file);
@@ -26,4 +26,4 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
 // square); values that are not defined are left out.
 std::map<std::string, double> roughness_of(const std::vector<std::vector<double>>& lines_m, double spacing_m);
 
-}  // namespace asperity::app
+}  // namespace asperity
