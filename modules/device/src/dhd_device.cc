@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "check_config.h"
 #include "dhd_api.h"
@@ -36,6 +37,13 @@ class DhdDevice final : public HapticDevice {
     }
     info_.rate_Hz = config.rate_Hz;
     watched_ = set_watchdog(config.watchdog_s);
+    if (!watched_ && !config.without_watchdog) {
+      const std::string why = words();
+      api_.close(dhd::kDefaultDevice);
+      throw Error("dhd: the controller's watchdog cannot be set (" + why +
+                  "): if this program were stopped, the last force would stay on the device; "
+                  "dhd.without_watchdog=true uses it all the same");
+    }
     const bool enabled = api_.enable_force(1, dhd::kDefaultDevice) >= 0;
     if (!enabled || api_.set_force(0.0, 0.0, 0.0, dhd::kDefaultDevice) < 0) {
       const std::string why = words();
@@ -111,7 +119,8 @@ class DhdDevice final : public HapticDevice {
     const bool moving = api_.get_linear_velocity(&v_mps.x(), &v_mps.y(), &v_mps.z(), dhd::kDefaultDevice) >= 0;
     const int buttons = api_.get_button_mask(dhd::kDefaultDevice);
     reading_.p_m = from_driver_frame(p_m);
-    reading_.v_mps = moving && v_mps.allFinite() ? from_driver_frame(v_mps) : Eigen::Vector3d::Zero();
+    // Without one it is not 0 but unknown: the loop estimates it, and damps by that.
+    reading_.v_mps = moving && v_mps.allFinite() ? from_driver_frame(v_mps) : Eigen::Vector3d::Constant(kNan);
     reading_.buttons = buttons > 0 ? static_cast<std::uint32_t>(buttons) : 0;
     ++reading_.sequence;
   }

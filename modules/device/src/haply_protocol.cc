@@ -1,7 +1,10 @@
 #include "haply_protocol.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -124,6 +127,25 @@ void write_haply_command(std::string& out, std::string_view device_id, const Eig
   out += R"(,"z":)";
   append_number(out, force_N.z());
   out += "}}}}]}";
+}
+
+std::vector<std::byte> websocket_frame(std::string_view text) {
+  constexpr unsigned char kWholeText = 0x81, kMasked = 0x80, kTwoBytesOfLength = 126;
+  // Any key will do: masks keep what a page of a browser sends from being taken for another protocol.
+  constexpr std::array<unsigned char, 4> kMask{0x37, 0x9A, 0x51, 0xC2};
+  if (text.size() > 0xFFFF) throw Error("haply: a frame of " + std::to_string(text.size()) + " bytes");
+  std::vector<unsigned char> out{kWholeText};
+  if (text.size() < kTwoBytesOfLength) {
+    out.push_back(static_cast<unsigned char>(kMasked | text.size()));
+  } else {
+    out.insert(out.end(), {kMasked | kTwoBytesOfLength, static_cast<unsigned char>(text.size() >> 8U),
+                           static_cast<unsigned char>(text.size() & 0xFFU)});
+  }
+  out.insert(out.end(), kMask.begin(), kMask.end());
+  for (std::size_t i = 0; i < text.size(); ++i)
+    out.push_back(static_cast<unsigned char>(static_cast<unsigned char>(text[i]) ^ kMask[i % kMask.size()]));
+  const auto bytes = std::as_bytes(std::span(out));
+  return {bytes.begin(), bytes.end()};
 }
 
 Eigen::Matrix3d parse_haply_axes(std::string_view axes) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -34,6 +35,10 @@ HaplyState parse_haply_frame(std::string_view text, std::string_view device_id);
 // A client's message into `out`: a force in N in the service's axes; with `first`, also the session's profile.
 void write_haply_command(std::string& out, std::string_view device_id, const Eigen::Vector3d& force_N,
                          HaplyForceKey key, bool first);
+
+// A message as a client's whole frame on the wire (RFC 6455, 5.2: text, masked), for a process that has no client.
+// Throws Error for one of more than 65,535 bytes.
+std::vector<std::byte> websocket_frame(std::string_view text);
 
 // The rotation from the service's axes to the device's: "XZ-Y" is x = X, y = Z, z = −Y. Throws Error unless `axes`
 // names each axis once and keeps the handedness.

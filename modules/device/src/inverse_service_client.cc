@@ -166,6 +166,11 @@ void InverseServiceClient::wake() noexcept {
   }
 }
 
+int InverseServiceClient::descriptor() const noexcept {
+  if (!impl_->socket) return -1;
+  return beast::get_lowest_layer(*impl_->socket).socket().native_handle();
+}
+
 void InverseServiceClient::close(Clock::time_point until) noexcept {
   Impl& my = *impl_;
   if (!my.socket) return;

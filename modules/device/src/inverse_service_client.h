@@ -31,6 +31,9 @@ class InverseServiceClient {
   // Ends a wait in receive() so that it looks at its `stop`.
   void wake() noexcept;
 
+  // Of the connection, for what writes to it beside this (supervisor.h); -1 without one.
+  int descriptor() const noexcept;
+
   // Closes the WebSocket with a handshake while there is time, then the socket.
   void close(Clock::time_point until) noexcept;
 

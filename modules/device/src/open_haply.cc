@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/supervisor.h"
 #include "check_config.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
@@ -43,6 +45,8 @@ class HaplyDevice final : public IoDevice {
       await_state(until);
     }
     pass_on();
+    write_haply_command(text_, device_id_, Eigen::Vector3d::Zero(), force_key_, false);
+    supervisor_.emplace(client_.descriptor(), websocket_frame(text_));
     thread_ = std::thread([this] { serve_and_leave(); });
   }
 
@@ -86,6 +90,28 @@ class HaplyDevice final : public IoDevice {
     write_haply_command(text_, device_id_, R_device_service_.transpose() * force_N, force_key_, first);
     client_.send(text_, until);
     questions_.ask(Clock::now());
+    has_pushed_ = has_pushed_ || !force_N.isZero();
+  }
+
+  // The watch begins with the first force: opening may take longer than it allows.
+  void beat() {
+    if (!has_pushed_ || supervisor_->beat()) return;
+    throw Error(
+        fmt::format("haply: device '{}': this process was stopped and its force was ended, or the process that "
+                    "watches it has ended",
+                    device_id_));
+  }
+
+  // As receive_state(); who waits is there, however long it takes.
+  bool receive_state_beating(Clock::time_point until) {
+    constexpr auto kSlice = std::chrono::milliseconds(20);
+    while (true) {
+      const auto slice = std::min(until, Clock::now() + kSlice);
+      const bool received = receive_state(slice);
+      beat();
+      if (received) return true;
+      if (slice == until || stop_.load()) return false;
+    }
   }
 
   void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
@@ -97,6 +123,8 @@ class HaplyDevice final : public IoDevice {
     } catch (const std::exception&) {
       // The connection is gone, and the force with it: the service holds none beyond its session.
     }
+    // It holds the connection open, too.
+    supervisor_.reset();
     client_.close(Clock::now() + seconds(0.1));
   }
 
@@ -123,7 +151,7 @@ class HaplyDevice final : public IoDevice {
       }
       const auto silent_at = (zero_sent ? now : last_state) + stall_after;
       const bool asked = questions_.open() > 0;
-      if (receive_state(asked ? silent_at : next_send)) {
+      if (receive_state_beating(asked ? silent_at : next_send)) {
         last_state = Clock::now();
         if (asked) {
           last_answer = last_state;
@@ -171,6 +199,8 @@ class HaplyDevice final : public IoDevice {
   HaplyState state_;
   OpenQuestions questions_{seconds(config_.late_after_s)};
   bool current_ = false;
+  bool has_pushed_ = false;
+  std::optional<Supervisor> supervisor_;
   std::uint64_t sequence_ = 0;
   std::thread thread_;
 };

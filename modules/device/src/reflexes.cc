@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kNoise_m = 0.2e-3;  // of encoders
 constexpr double kForget = 20.0;     // plausible time that makes up for implausible time
+constexpr double kForgetGaps = 10.0;
 constexpr double kContradictionMemory_s = 0.02;
 constexpr double kSpeedShare = 0.5;  // a velocity that is filtered lags behind
 
@@ -28,7 +29,28 @@ bool frozen(const ReflexConfig& config, ReflexState& state, const DeviceReading&
   return state.frozen_s >= config.frozen_after_s;
 }
 
-void believe(ReflexState& state, const DeviceReading& reading) noexcept {
+// Whether the place is where the last two were heading, as far as a hand can change its speed.
+bool is_expected(const ReflexConfig& config, const ReflexState& state, const Eigen::Vector3d& p_m) noexcept {
+  if (!state.has_step) return true;
+  const double t_s = state.since_believed_s;
+  // The velocity is that of the middle of the step before: it may have changed for half of that, too.
+  const double allowed_m =
+      std::min(0.5 * config.max_acceleration_mps2 * t_s * (t_s + state.step_s), config.largest_surprise_m);
+  return (p_m - state.believed_m - t_s * state.step_mps).norm() <= allowed_m + 2.0 * kNoise_m;
+}
+
+// Whether the place is near that of the reading before, which was not believed.
+bool is_confirmed(const ReflexConfig& config, const ReflexState& state, const Eigen::Vector3d& p_m,
+                  double step_s) noexcept {
+  const double allowed_m = std::min(config.max_speed_mps * step_s, config.largest_surprise_m);
+  return (p_m - state.newest_m).norm() <= allowed_m + kNoise_m;
+}
+
+// `from_m` is a place that it was at `step_s` before.
+void believe(ReflexState& state, const DeviceReading& reading, const Eigen::Vector3d& from_m, double step_s) noexcept {
+  state.has_step = step_s > 0.0;
+  if (state.has_step) state.step_mps = (reading.p_m - from_m) / step_s;
+  state.step_s = step_s;
   state.believed_m = reading.p_m;
   state.since_believed_s = 0.0;
 }
@@ -44,17 +66,25 @@ ReadingJudgement check_reading(const ReflexConfig& config, ReflexState& state, c
                     reading.status == DeviceStatus::kReady;
   if (news && !state.heard) {
     state.heard = true;
-    believe(state, reading);
+    believe(state, reading, reading.p_m, 0.0);
   } else if (news) {
     const double step_s = state.since_new_s;
     const double jump_m = (reading.p_m - state.believed_m).norm();
-    const bool jumps = jump_m > config.max_speed_mps * state.since_believed_s + kNoise_m;
+    const bool expected = is_expected(config, state, reading.p_m);
+    const bool confirmed = state.surprised && is_confirmed(config, state, reading.p_m, step_s);
+    const bool jumps = jump_m > config.max_speed_mps * state.since_believed_s + kNoise_m || !(expected || confirmed);
     const bool stands = frozen(config, state, reading, step_s);
     const bool lies = !jumps && contradicts(config, state, reading, reading.p_m - state.newest_m, step_s);
     const bool was_plausible = state.plausible;
     state.plausible = !jumps && !stands && !lies;
     out.returned = state.plausible && !was_plausible;
-    if (!jumps) believe(state, reading);
+    // Of a place that was confirmed the speed is that since the reading which it confirms.
+    if (!jumps && expected) {
+      believe(state, reading, state.believed_m, state.since_believed_s);
+    } else if (!jumps) {
+      believe(state, reading, state.newest_m, step_s);
+    }
+    state.surprised = jumps;
     if (out.returned) state.contradiction_mps.setZero();
   }
   if (news) {
@@ -67,6 +97,13 @@ ReadingJudgement check_reading(const ReflexConfig& config, ReflexState& state, c
   // Half a tick of slack: a sum of ticks is not exactly a time.
   out.fault = !state.plausible && state.distrust_s + 0.5 * dt_s >= config.fault_after_s;
   return out;
+}
+
+bool lost_too_much(const ReflexConfig& config, LostTicks& state, double gap_s) noexcept {
+  if (gap_s > config.most_lost_s) return true;
+  const double counted_s = gap_s > config.long_gap_s ? gap_s : 0.0;
+  state.lost_s = std::max(0.0, state.lost_s + counted_s - gap_s / kForgetGaps);
+  return state.lost_s > config.most_lost_s;
 }
 
 bool was_suspended(SuspendWatch& watch, std::int64_t boot_ns, std::int64_t monotonic_ns, double most_s) noexcept {

@@ -45,7 +45,7 @@ void ServoCore::judge(const DeviceReading& reading, double dt_s, bool suspended)
   // What the renderer remembers is of a place where the hand is not: it begins outside of everything again.
   if (judgement.returned) servo_ = {};
   if (judgement.fault) fault_ = ReflexFault::kImplausible;
-  if (dt_s > reflexes_.most_lost_s) fault_ = ReflexFault::kLostTicks;
+  if (lost_too_much(reflexes_, lost_, dt_s)) fault_ = ReflexFault::kLostTicks;
   if (suspended) fault_ = ReflexFault::kSuspended;
 }
 

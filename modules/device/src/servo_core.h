@@ -62,6 +62,7 @@ class ServoCore {
   SafetyState safety_;
   ReflexConfig reflexes_;
   ReflexState reflex_;
+  LostTicks lost_;
   bool judged_;  // a computed hand is not
   bool plausible_ = true;
   ReflexFault fault_ = ReflexFault::kNone;

@@ -69,9 +69,18 @@ TEST_F(Dhd, SetsTheControllersWatchdog) {
   EXPECT_EQ(device->fault(), "");
 }
 
-TEST_F(Dhd, SaysThatThereIsNoWatchdog) {
+TEST_F(Dhd, IsNotOpenedWithoutAWatchdogUnlessThatIsStated) {
   fake_.set("no_watchdog", 1);
-  const auto device = open_dhd(fake_config());
+  try {
+    open_dhd(fake_config());
+    ADD_FAILURE() << "it was opened";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("dhd.without_watchdog=true"));
+  }
+  EXPECT_EQ(fake_.motor_N(), Eigen::Vector3d::Zero());
+  DhdConfig config = fake_config();
+  config.without_watchdog = true;
+  const auto device = open_dhd(config);
   EXPECT_EQ(device->read(0).status, DeviceStatus::kReady);
   EXPECT_THAT(device->fault(), testing::HasSubstr("has no watchdog"));
 }

@@ -35,6 +35,8 @@ json vector_json(const Eigen::Vector3d& v) { return {{"x", v.x()}, {"y", v.y()},
 
 }  // namespace
 
+constexpr double kLetsGo_s = 0.1;  // of a service that hangs
+
 struct FakeInverseService::Impl {
   explicit Impl(const FakeInverseConfig& new_config) : config(new_config), p_m(new_config.start_m) {
     plugged = !config.device_id.empty();
@@ -161,8 +163,9 @@ struct FakeInverseService::Impl {
         if (!plugged || device.at("device_id") != config.device_id) continue;
         const json& force = device.at("commands").at("set_cursor_force").at(vector ? "vector" : "values");
         force_N = {force.at("x").get<double>(), force.at("y").get<double>(), force.at("z").get<double>()};
-        force_until = Clock::now() +
-                      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(config.force_holds_s));
+        const double holds_s = stalled ? kLetsGo_s : config.force_holds_s;
+        force_until =
+            Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(holds_s));
       }
     } catch (const json::exception&) {
       ++counted.unreadable;
@@ -249,7 +252,13 @@ void FakeInverseService::unplug() {
 }
 
 void FakeInverseService::drop() { impl_->cut_all(); }
-void FakeInverseService::stall(bool on) { impl_->stalled = on; }
+void FakeInverseService::stall(bool on) {
+  impl_->stalled = on;
+  const std::lock_guard lock(impl_->mutex);
+  const auto until =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kLetsGo_s));
+  if (on) impl_->force_until = std::min(impl_->force_until, until);
+}
 void FakeInverseService::answer_after(std::chrono::microseconds time) {
   impl_->delay_us = static_cast<int>(time.count());
 }

@@ -16,8 +16,8 @@ struct FakeInverseConfig {
   double damping_N_s_per_m = 40.0;
   Eigen::Vector3d pull_N{0.0, 0.0, -1.0};
   Eigen::Vector3d start_m = Eigen::Vector3d::Zero();
-  // Haply does not say how long a force outlives its message; this fake lets go after so long.
-  double force_holds_s = 0.1;
+  // Haply does not state how long a force outlives its message. The worst is until the session ends.
+  double force_holds_s = 1e6;
 };
 
 // What clients did so far.
@@ -53,9 +53,11 @@ class FakeInverseService {
   Eigen::Vector3d position_m() const;
   Eigen::Vector3d applied_N() const;  // what the motors give now
 
-  void unplug();                                      // the device leaves the state frames
-  void drop();                                        // connections are cut without a word
-  void stall(bool on);                                // messages are taken but not answered until it ends
+  void unplug();  // the device leaves the state frames
+  void drop();    // connections are cut without a word
+  // Messages are taken but not answered until it ends. Who hangs cannot be told: 0.1 s later the fake lets go by
+  // itself.
+  void stall(bool on);
   void answer_with(const std::string& text);          // instead of states
   void answer_after(std::chrono::microseconds time);  // each state comes this late, and is as old
   void trouble(ServiceTrouble kind);

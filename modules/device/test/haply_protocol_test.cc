@@ -106,5 +106,25 @@ TEST(HaplyProtocol, AxesAreARotation) {
   }
 }
 
+// RFC 6455, 5.2, by hand: what a server takes off again.
+TEST(HaplyProtocol, AFrameIsMaskedAndWhole) {
+  for (const std::size_t length : {0u, 5u, 125u, 126u, 300u}) {
+    const std::string text(length, 'q');
+    const std::vector<std::byte> frame = websocket_frame(text);
+    const auto at = [&](std::size_t i) { return std::to_integer<unsigned>(frame.at(i)); };
+    EXPECT_EQ(at(0), 0x81u);
+    EXPECT_EQ(at(1) & 0x80u, 0x80u);
+    const bool is_short = length < 126;
+    EXPECT_EQ(at(1) & 0x7Fu, is_short ? length : 126u);
+    if (!is_short) {
+      EXPECT_EQ(256u * at(2) + at(3), length);
+    }
+    const std::size_t key = is_short ? 2 : 4;
+    ASSERT_EQ(frame.size(), key + 4 + length);
+    for (std::size_t k = 0; k < length; ++k) EXPECT_EQ(at(key + 4 + k) ^ at(key + k % 4), unsigned{'q'});
+  }
+  EXPECT_THROW(websocket_frame(std::string(70000, 'x')), Error);
+}
+
 }  // namespace
 }  // namespace asperity

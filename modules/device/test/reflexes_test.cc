@@ -143,16 +143,74 @@ double largest_force_N(const Recorded& all) {
 }
 
 TEST(Reflexes, NoGlitchKicks) {
-  for (const int jumps : {1, 3, 8}) {
-    const Recorded all = glitch(jumps, 0.05);
-    EXPECT_EQ(all.result.end, ServoEnd::kDuration) << jumps;
-    EXPECT_LE(largest_force_N(all), 0.1) << jumps;
+  for (const double deep_m : {0.001, 0.0015, 0.002, 0.003, 0.005, 0.01, 0.02, 0.05}) {
+    for (const int jumps : {1, 2, 3, 8}) {
+      SCOPED_TRACE(testing::Message() << jumps << " readings " << deep_m << " m deeper");
+      const Recorded all = glitch(jumps, deep_m);
+      EXPECT_EQ(all.result.end, ServoEnd::kDuration);
+      EXPECT_LE(largest_force_N(all), 0.1);
+    }
   }
   // A place that no hand reaches in 25 ms.
   const Recorded far = glitch(1000, 0.2);
   EXPECT_EQ(far.result.end, ServoEnd::kFault);
   EXPECT_EQ(far.result.fault, ReflexFault::kImplausible);
   EXPECT_LE(largest_force_N(far), 0.1);
+}
+
+// A device of 100 Hz, or one that was silent for 10 ms.
+TEST(Reflexes, NoGlitchOfASlowDeviceKicks) {
+  for (const double deep_m : {0.007, 0.02, 0.05}) {
+    for (const int jumps : {1, 2}) {
+      SCOPED_TRACE(testing::Message() << jumps << " readings " << deep_m << " m deeper");
+      FakeDevice device;
+      device.path = [=](std::uint64_t read) {
+        const std::uint64_t news = read / 10;
+        return Eigen::Vector3d(0.0, 0.0,
+                               news >= 100 && news < 100 + static_cast<std::uint64_t>(jumps) ? 0.001 - deep_m : 0.001);
+      };
+      device.meddle = [](std::uint64_t read, DeviceReading& reading) {
+        reading.v_mps.setConstant(kNan);
+        reading.sequence = 1 + read / 10;
+      };
+      const Recorded all = run(device, unpaced(2.0));
+      EXPECT_EQ(all.result.end, ServoEnd::kDuration);
+      // One that lasts is a place; it begins softly, over 10 ms.
+      EXPECT_LE(largest_force_N(all), jumps == 1 ? 0.1 : 0.5);
+    }
+  }
+}
+
+TEST(Reflexes, AHandThatStartsAndStopsAtOnceIsBelieved) {
+  // From rest to 0.5 m/s within a millisecond and back, against a stop: 500 m/s².
+  Watched hand;
+  double x = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    if (k >= 100 && k < 200) x += 0.5e-3;
+    ASSERT_TRUE(hand.see(x).plausible) << k;
+  }
+}
+
+TEST(Reflexes, SurprisesThatDoNotConfirmOneAnotherAreAFault) {
+  Watched hand;
+  for (int k = 0; k < 100; ++k) hand.see(0.0);
+  int ticks = 0;
+  while (!hand.see((ticks % 2 == 0 ? 0.004 : 0.012) + 1e-5 * ticks).fault && ticks < 1000) ++ticks;
+  EXPECT_NEAR(ticks, 50, 5);  // after some milliseconds a hand could have come to every other one
+}
+
+TEST(Reflexes, LongGapsAddUp) {
+  const ReflexConfig config;
+  LostTicks often, seldom, short_ones;
+  int gaps = 0;
+  while (!lost_too_much(config, often, 0.019) && gaps < 1000) ++gaps;  // a loop of 53 Hz
+  EXPECT_NEAR(gaps, 8, 1);
+  for (int k = 0; k < 10000; ++k) {
+    ASSERT_FALSE(lost_too_much(config, short_ones, 0.009)) << k;
+    ASSERT_FALSE(lost_too_much(config, seldom, k % 200 == 0 ? 0.015 : 0.001)) << k;
+  }
+  LostTicks once;
+  EXPECT_TRUE(lost_too_much(config, once, 0.16));
 }
 
 TEST(Reflexes, AHandThatIsElsewhereBeginsSoftly) {

@@ -31,7 +31,7 @@ struct SupervisorConfig {
 // nothing but read, write, poll, clock_gettime and _exit; it may be started while other threads run.
 class Supervisor {
  public:
-  static constexpr std::size_t kMaxFarewell_bytes = 256;
+  static constexpr std::size_t kMaxFarewell_bytes = 512;
 
   // Throws Error if the farewell is empty or too long or if no process can be started.
   Supervisor(int device_fd, std::span<const std::byte> farewell, const SupervisorConfig& config = {});
