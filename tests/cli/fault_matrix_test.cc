@@ -108,9 +108,18 @@ void tell(const Cell& cell, const Course& course) {
   if (const char* file = ::getenv("FAULT_MATRIX")) std::ofstream(file, std::ios::app) << row;
 }
 
+// The name of its test.
+std::string name_of(const Cell& cell) {
+  std::string name = cell.program + "_" + cell.device + "_" + cell.fault_name();
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
 void count(const Cell& cell, const char* how) {
   if (const char* file = ::getenv("FAULT_MATRIX_TALLY"))
-    std::ofstream(file, std::ios::app) << cell.device + " " + how + "\n";
+    std::ofstream(file, std::ios::app) << cell.device + " " + how + " " + name_of(cell) + "\n";
 }
 
 class FaultMatrix : public testing::TestWithParam<Cell> {
@@ -275,13 +284,8 @@ std::vector<Cell> cells() {
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, FaultMatrix, testing::ValuesIn(cells()), [](const auto& one) {
-  std::string name = one.param.program + "_" + one.param.device + "_" + one.param.fault_name();
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Programs, FaultMatrix, testing::ValuesIn(cells()),
+                         [](const auto& one) { return name_of(one.param); });
 
 }  // namespace
 }  // namespace asperity::cli

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,19 @@ const fs::path& inputs() {
          "--quiet"});
     run({"process", folder / "rec", "-o", folder / "processed", "--quiet"});
     write_text(folder / "plane.obj", plane_obj());
+    // Taps at two speeds and forces: 150 Hz that decay within 20 ms.
+    for (int tap = 0; tap < 4; ++tap) {
+      const double speed_mps = 0.05 + 0.05 * (tap % 2), force_N = tap < 2 ? 0.5 : 1.0;
+      std::string rows = "t_s,acceleration_mps2,speed_mps,force_N\n";
+      for (int i = 0; i < 400; ++i) {
+        const double t_s = 2.5e-4 * i;
+        const double a =
+            40.0 * speed_mps * force_N * std::exp(-t_s / 0.02) * std::sin(2.0 * std::numbers::pi * 150.0 * t_s);
+        rows += std::to_string(t_s) + "," + std::to_string(a) + "," + std::to_string(speed_mps) + "," +
+                std::to_string(force_N) + "\n";
+      }
+      write_text(folder / ("tap_" + std::to_string(tap) + ".csv"), rows);
+    }
     return folder;
   }();
   return path;
@@ -94,7 +109,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Felt{"fourier2d", {"@/processed/profile.csv", "--model", "fourier2d"}, {}},
                     Felt{"heightmap", {"@/processed/profile.csv", "--model", "heightmap"}, {}},
                     Felt{"stochastic", {"@/processed/profile.csv", "--model", "stochastic"}, {}},
-                    Felt{"autoregressive", {"@/rec", "--model", "autoregressive"}, {}}),
+                    Felt{"autoregressive", {"@/rec", "--model", "autoregressive"}, {}},
+                    Felt{"decaying_sinusoids",
+                         {"@/tap_0.csv", "@/tap_1.csv", "@/tap_2.csv", "@/tap_3.csv", "--model", "decaying_sinusoids"},
+                         {}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

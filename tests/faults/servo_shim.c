@@ -1,7 +1,7 @@
 /* Preloaded into the program: counts what the servo thread may not do. The servo thread is the one that waits for
  * absolute times of CLOCK_MONOTONIC; it is counted from its SERVO_FROM-th wait on (200: it has warmed up by then) to
  * its last one. At the end SERVO_COUNTS=FILE gets: waits, allocations (malloc, calloc, realloc, aligned_alloc,
- * posix_memalign, and free), mmap and munmap, mutex locks (also trylock and condition waits), page faults of that
+ * posix_memalign, and free), mmap and munmap, mutex locks (also trylock), page faults of that
  * thread; and every SERVO_EVERY-th wait what there is so far. With SERVO_NO_LOCK set mlockall fails. */
 #define _GNU_SOURCE
 #include <dlfcn.h>

@@ -30,7 +30,7 @@ struct ReflexConfig {
     v.field("max_acceleration_mps2", max_acceleration_mps2,
             "a position farther from where it was heading than this allows is believed when the next one confirms it",
             {1.0, 1e6});
-    v.field("largest_surprise_m", largest_surprise_m, "the same, by so much whatever the time since the last one",
+    v.field("largest_surprise_m", largest_surprise_m, "the same, by this distance, however long ago the last one was",
             {1e-4, 1.0});
     v.field("frozen_after_s", frozen_after_s, "the same position, bit for bit, for so long is not believed",
             {0.005, 10.0});
