@@ -6,12 +6,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "add/addition.h"
 #include "asperity/base/base64.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/texture/texture_file.h"
 #include "page_rig.h"
 
 namespace asperity::studio {
@@ -277,6 +279,71 @@ TEST_F(ImportPageTest, RefusesFilesElsewhereAndSettingsThatAreNone) {
         R"({"files":{"pose":"poses.csv"},"settings":{"mapping.up":3}})"}) {
     EXPECT_NE(call("import.look", parse_json(args)).error, "") << args;
   }
+}
+
+// A sine of 3 µm: Rq = 3/√2 µm, and the texture that is made of it has that, too.
+TEST_F(AddPageTest, AProfileIsLookedAtAndMadeATexture) {
+  std::ofstream file(project.folder() / "sine.csv");
+  file << "x_mm,z_um\n";
+  for (int i = 0; i < 4000; ++i) file << 0.005 * i << ',' << 3.0 * std::sin(2.0 * std::numbers::pi * i / 100.0) << '\n';
+  file.close();
+  const auto look = call("surface.look", Json{{"file", "sine.csv"}, {"spacing_mm", 0.0}});
+  ASSERT_EQ(look.error, "");
+  EXPECT_EQ(look.result["kind"].get<std::string>(), "profile");
+  EXPECT_EQ(look.result["points"].get<int>(), 4000);
+  std::string rq;
+  for (const Json& parameter : look.result["parameters"]) {
+    if (parameter["key"].get<std::string>() == "Rq") rq = parameter["value"].get<std::string>();
+  }
+  EXPECT_NEAR(std::stod(rq), 3.0 / std::numbers::sqrt2, 0.01);
+  const auto picture = bytes_of_base64(look.result["picture"].get<std::string>());
+  ASSERT_TRUE(picture);
+  EXPECT_TRUE(picture->starts_with("\x89PNG")) << look.result["note"].get<std::string>();
+
+  const Json wanted{{"file", "sine.csv"}, {"spacing_mm", 0.0}, {"name", "sine.texture.json"}};
+  ASSERT_EQ(call("surface.texture", wanted).error, "");
+  const Texture texture = read_texture(project.folder() / "sine.texture.json");
+  EXPECT_EQ(texture.name, "sine");
+  ASSERT_TRUE(texture.roughness.contains("Rq_m"));
+  EXPECT_NEAR(texture.roughness.at("Rq_m"), 3e-6 / std::numbers::sqrt2, 1e-8);
+  EXPECT_NE(call("surface.texture", wanted).error, "") << "it is replaced only if that is wanted";
+}
+
+TEST_F(AddPageTest, AMapIsLookedAtAndMissingHeightsAreCounted) {
+  std::ofstream file(project.folder() / "map.csv");
+  file << "x_mm,y_mm,z_um\n";
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 50; ++column) {
+      file << 0.1 * column << ',' << 0.1 * row << ',';
+      if (row == 7 && column == 9) {
+        file << "nan\n";
+        continue;
+      }
+      file << std::sin(0.7 * column) + std::cos(0.5 * row);
+      file << '\n';
+    }
+  }
+  file.close();
+  const auto look = call("surface.look", Json{{"file", "map.csv"}, {"spacing_mm", 0.0}});
+  ASSERT_EQ(look.error, "");
+  EXPECT_EQ(look.result["kind"].get<std::string>(), "map");
+  EXPECT_EQ(look.result["points"].get<int>(), 2000);
+  EXPECT_EQ(look.result["missing"].get<int>(), 1);
+  EXPECT_GE(look.result["parameters"].size(), 20u);
+  const auto made =
+      call("surface.texture", Json{{"file", "map.csv"}, {"spacing_mm", 0.0}, {"name", "map.texture.json"}});
+  EXPECT_EQ(made.error, "");
+  EXPECT_EQ(read_texture(project.folder() / "map.texture.json").model_name(), "areal");
+}
+
+TEST_F(AddPageTest, WhatIsNoSurfaceIsNamed) {
+  std::ofstream(project.folder() / "letter.txt") << "dear friend,\nhow are you?\n";
+  EXPECT_THAT(call("surface.look", Json{{"file", "letter.txt"}, {"spacing_mm", 0.0}}).error, HasSubstr("letter.txt"));
+  std::ofstream(project.folder() / "one.csv") << "height_um\n1\n2\n3\n";
+  EXPECT_THAT(call("surface.look", Json{{"file", "one.csv"}, {"spacing_mm", 0.0}}).error, HasSubstr("spacing"));
+  EXPECT_NE(call("surface.look", Json{{"file", "one.csv"}, {"spacing_mm", -1.0}}).error, "");
+  EXPECT_NE(call("surface.look", Json{{"file", "../one.csv"}, {"spacing_mm", 0.0}}).error, "");
+  EXPECT_NE(call("surface.texture", Json{{"file", "letter.txt"}, {"spacing_mm", 0.0}, {"name", "letter"}}).error, "");
 }
 
 }  // namespace

@@ -90,6 +90,29 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       await page.getByTestId("scans").getByText("wave").waitFor();
     });
 
+    await step("a map of an instrument is shown with its roughness, and becomes a texture", async () => {
+      // GSF: a header padded to four bytes with zeros, then floats, m.
+      const text = "Gwyddion Simple Field 1.0\nXRes = 96\nYRes = 64\nXReal = 0.0096\nYReal = 0.0064\nXYUnits = m\nZUnits = m\n";
+      const header = Buffer.alloc(text.length + 4 - (text.length % 4));
+      header.write(text);
+      const heights = new Float32Array(96 * 64).map((_h, i) => 5e-6 * (Math.sin(0.4 * (i % 96)) + 0.3 * Math.cos(0.9 * Math.floor(i / 96))));
+      writeFileSync(join(outside, "part.gsf"), Buffer.concat([header, Buffer.from(heights.buffer)]));
+      await page.getByTestId("add").click();
+      await page.getByTestId("add-files").setInputFiles([join(outside, "part.gsf")]);
+      await page.getByTestId("surfaces").getByRole("button", { name: "Heights of part.gsf" }).click();
+      ok((await page.getByTestId("surface-size").textContent()).includes("9.6 × 6.4 mm"), "its size");
+      const rows = await page.getByTestId("surface-parameters").getByRole("row").allTextContents();
+      ok(rows.some((row) => /^Sq3\.\d+µm$/.test(row)), `Sq in ${rows.slice(0, 4)}`);
+      const shown = await until(() => page.getByTestId("surface-picture").evaluate((image) => image.complete && image.naturalWidth), "a picture");
+      ok(shown > 400, "a picture of some size");
+      if (process.env.ASPERITY_E2E_PICTURES) await page.screenshot({ path: join(process.env.ASPERITY_E2E_PICTURES, "surface.png") });
+      await page.getByTestId("surface-texture").click();
+      await until(() => existsSync(join(folder, "part.texture.json")), "the texture");
+      equal(JSON.parse(readFileSync(join(folder, "part.texture.json"), "utf8")).model, "areal", "its model");
+      await page.keyboard.press("Escape");
+      await page.keyboard.press("Escape");
+    });
+
     await step("a plot is saved as SVG, PNG and CSV", async () => {
       await page.getByTestId("add-recording").selectOption("board");
       const save = page.getByTestId("plot-height-save");
