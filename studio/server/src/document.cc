@@ -1,9 +1,12 @@
 #include "asperity/studio/document.h"
 
 #include <algorithm>
+#include <new>
+#include <system_error>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/studio/calls.h"
@@ -109,24 +112,64 @@ void Document::add_section(const std::string& name, Json first, Validator valida
   updaters_[name] = std::move(updater);
 }
 
+namespace {
+
+// A name beside `file` that nothing has: FILE.unreadable, FILE.unreadable_2, ….
+std::filesystem::path free_name_beside(const std::filesystem::path& file, const std::string& ending) {
+  constexpr int kMost = 10'000;
+  for (int i = 1; i < kMost; ++i) {
+    std::filesystem::path name = file;
+    name += ending + (i > 1 ? "_" + std::to_string(i) : std::string());
+    std::error_code error;
+    if (std::filesystem::symlink_status(name, error).type() == std::filesystem::file_type::not_found) return name;
+  }
+  throw Error(file.string() + ending + ": there are too many of them");
+}
+
+// What cannot be kept under another name would be replaced by the first edit's save, so the studio does not start.
+[[noreturn]] void refuse_to_start(const std::filesystem::path& file, const std::string& why) {
+  throw Error(file.string() + ": " + why +
+              "; the studio does not start, because its next save would replace this file");
+}
+
+}  // namespace
+
 void Document::load() {
   std::error_code error;
-  if (!std::filesystem::exists(file_, error)) return;
+  const std::filesystem::file_status status = std::filesystem::status(file_, error);
+  if (status.type() == std::filesystem::file_type::not_found) return;
+  if (!std::filesystem::status_known(status)) refuse_to_start(file_, "cannot be looked at: " + error.message());
+  std::string content;
   try {
-    read(read_file(file_, kLargestFile));
+    content = read_file(file_, kLargestFile);
+    if (read(content)) return;
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the file
   } catch (const std::exception& fault) {
     for (const auto& [name, first] : first_) value_[name] = first;
     undo_.clear();
     redo_.clear();
-    std::filesystem::path aside = file_;
-    aside += ".unreadable";
+    const std::filesystem::path aside = free_name_beside(file_, ".unreadable");
     std::filesystem::rename(file_, aside, error);
+    if (error) {
+      refuse_to_start(file_,
+                      std::string("cannot be read: ") + fault.what() + ", and cannot be renamed: " + error.message());
+    }
     problems_.push_back(printable(file_.filename().string()) + " could not be read and was renamed to " +
                         printable(aside.filename().string()) + ": " + printable(fault.what(), 300));
+    return;
   }
+  // What its page did not take, and all steps, are in a copy: the next save has them no more.
+  const std::filesystem::path copy = free_name_beside(file_, ".before");
+  try {
+    write_file(copy, content);
+  } catch (const Error& fault) {
+    refuse_to_start(file_, std::string("a part of it cannot be used, and no copy can be made: ") + fault.what());
+  }
+  problems_.push_back("the file as it was is kept as " + printable(copy.filename().string()));
 }
 
-void Document::read(std::string_view text) {
+bool Document::read(std::string_view text) {
   const Json file = parse_json(text, file_.filename().string(), file_limits());
   if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("has another version");
   bool whole = true;
@@ -144,6 +187,7 @@ void Document::read(std::string_view text) {
     }
   }
   if (whole) read_steps(file);
+  return whole;
 }
 
 const Json& Document::section(std::string_view name) const { return value_.at(std::string(name)); }

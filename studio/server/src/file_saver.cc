@@ -1,5 +1,6 @@
 #include "file_saver.h"
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
@@ -10,13 +11,16 @@ namespace asperity::studio {
 FileSaver::FileSaver(std::filesystem::path file, std::function<void(std::string)> failed)
     : file_(std::move(file)), failed_(std::move(failed)), thread_([this] { run(); }) {}
 
-FileSaver::~FileSaver() {
+FileSaver::~FileSaver() { finish(); }
+
+std::string FileSaver::finish() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
   }
   woken_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+  return lost_;
 }
 
 void FileSaver::save(std::string content) {
@@ -28,18 +32,30 @@ void FileSaver::save(std::string content) {
 }
 
 void FileSaver::run() {
+  constexpr std::chrono::seconds kTryAgainAfter{2};
+  std::optional<std::string> unwritten;
   for (;;) {
-    std::optional<std::string> content;
+    bool last = false;
     {
       std::unique_lock lock(mutex_);
-      woken_.wait(lock, [this] { return ending_ || waiting_; });
-      if (!waiting_) return;
-      content = std::exchange(waiting_, std::nullopt);
+      const auto woken = [this] { return ending_ || waiting_; };
+      if (unwritten) {
+        woken_.wait_for(lock, kTryAgainAfter, woken);
+      } else {
+        woken_.wait(lock, woken);
+      }
+      last = ending_;
+      if (waiting_) unwritten = std::exchange(waiting_, std::nullopt);
+      if (!unwritten) return;
     }
     try {
-      write_file(file_, *content);
+      write_file(file_, *unwritten);
+      unwritten.reset();
     } catch (const std::exception& error) {
       failed_(error.what());
+      if (!last) continue;
+      lost_ = error.what();
+      return;
     }
   }
 }

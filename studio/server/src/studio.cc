@@ -59,19 +59,35 @@ class Studio {
     open_control();
   }
 
-  // Sensors closed and forces at zero first; then nothing that still waits may run, for its pages are going.
   ~Studio() {
-    control_.reset();
-    for (const auto& page : pages_) guarded([&] { page->stop(); });
-    jobs_.reset();
-    inbox_.close();
-    server_->stop();
-    guarded([this] { save(); });
+    for (const std::string& lost : close()) notice(lost);
   }
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
   std::string address() const { return server_->address(); }
+
+  // Sensors closed and forces at zero first; then nothing that still waits may run, for its pages are going. What could
+  // not be stored, in sentences; the second call has none.
+  std::vector<std::string> close() noexcept {
+    std::vector<std::string> lost;
+    if (std::exchange(closed_, true)) return lost;
+    control_.reset();
+    for (const auto& page : pages_) {
+      try {
+        page->stop();
+      } catch (const std::exception& fault) {
+        lost.emplace_back(fault.what());
+      }
+    }
+    jobs_.reset();
+    inbox_.close();
+    server_->stop();
+    guarded([this] { save(); });
+    if (const std::string fault = saver_.finish(); !fault.empty())
+      lost.push_back("the last changes of the project could not be saved: " + fault);
+    return lost;
+  }
 
   void run(const std::atomic<bool>& stop) {
     auto next = Clock::now();
@@ -160,7 +176,7 @@ class Studio {
     }
   }
 
-  // A full disk must not end the studio: it is said once, and tried again with the next edit.
+  // A full disk must not end the studio: it is said once, and tried again until it works (file_saver.h).
   void cannot_save(const std::string& fault) {
     if (std::exchange(save_failed_, true)) return;
     note("The studio's state cannot be saved: " + fault,
@@ -179,6 +195,7 @@ class Studio {
   Shared shared_;
   std::vector<std::unique_ptr<Page>> pages_;
   bool save_failed_ = false;
+  bool closed_ = false;
   FileSaver saver_;
   std::optional<ControlSocket> control_;
 };
@@ -190,6 +207,9 @@ void run_studio(const StudioConfig& config, const std::function<void(const std::
   Studio studio(config);
   started(studio.address());
   studio.run(stop);
+  std::string all;
+  for (const std::string& lost : studio.close()) all += (all.empty() ? "" : "\n") + lost;
+  if (!all.empty()) throw Error(all);
 }
 
 }  // namespace asperity::studio

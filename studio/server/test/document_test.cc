@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
@@ -100,16 +103,46 @@ TEST_F(DocumentTest, IsThereAgainWithItsSteps) {
   EXPECT_EQ(again->value(), first_);
 }
 
-TEST_F(DocumentTest, ADamagedFileIsPutAside) {
+TEST_F(DocumentTest, DamagedFilesArePutAsideEachUnderANameOfItsOwn) {
+  std::set<std::string> kept;
   for (const std::string& content : {std::string("{\"format\":"), std::string(100'000, '['), std::string("7"),
                                      std::string(R"({"format":"asperity-studio","version":2})")}) {
     std::ofstream(file_) << content;
     const auto again = make_document(file_);
     EXPECT_EQ(again->value(), first_);
     EXPECT_EQ(again->problems().size(), 1U);
-    EXPECT_TRUE(std::filesystem::exists(file_.string() + ".unreadable"));
     EXPECT_FALSE(std::filesystem::exists(file_));
+    const std::string aside = kept.empty() ? ".unreadable" : ".unreadable_" + std::to_string(kept.size() + 1);
+    std::ifstream stream(file_.string() + aside, std::ios::binary);
+    const std::string found((std::istreambuf_iterator<char>(stream)), {});
+    EXPECT_EQ(found, content);
+    EXPECT_THAT(again->problems().front(), testing::HasSubstr(aside));
+    kept.insert(aside);
   }
+}
+
+// The next save has neither that section nor the steps.
+TEST_F(DocumentTest, OfAFileWithASectionThatIsNotTakenACopyIsKept) {
+  const std::string content = R"({"format":"asperity-studio","version":1,"document":{"page":7},"undo":[],"redo":[]})";
+  std::ofstream(file_) << content;
+  const auto again = make_document(file_);
+  EXPECT_EQ(again->value(), first_);
+  ASSERT_EQ(again->problems().size(), 2U);
+  EXPECT_THAT(again->problems().back(), testing::HasSubstr(".before"));
+  std::ifstream stream(file_.string() + ".before", std::ios::binary);
+  EXPECT_EQ(std::string((std::istreambuf_iterator<char>(stream)), {}), content);
+  EXPECT_TRUE(std::filesystem::exists(file_));
+}
+
+TEST_F(DocumentTest, AFileThatCannotBeLookedAtIsNotTakenForNone) {
+  std::filesystem::create_symlink(file_.filename(), file_);  // a loop: ELOOP, as EIO or EACCES would be
+  try {
+    make_document(file_);
+    ADD_FAILURE() << "the first save would replace it";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the studio does not start"));
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(file_));
 }
 
 TEST_F(DocumentTest, LongPathsAndLabelsAreRefusedAtOnce) {
@@ -199,7 +232,7 @@ TEST_F(DocumentTest, ASectionThatItsPageRefusesBeginsAnew) {
       << R"({"format":"asperity-studio","version":1,"document":{"page":{"a":-5}},"undo":[],"redo":[]})";
   const auto again = make_document(file_);
   EXPECT_EQ(again->value(), first_);
-  EXPECT_EQ(again->problems().size(), 1U);
+  EXPECT_EQ(again->problems().size(), 2U);  // and where the file as it was is kept
 }
 
 }  // namespace

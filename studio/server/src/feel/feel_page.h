@@ -28,6 +28,7 @@ class FeelPage : public Page, public FeelHost {
   void edited(const Edit& edit) override;
   void check_edit(ClientId client, const Edit& edit) const override;
   void pointed(ClientId client, const Pointer& pointer) override;
+  // Throws Error naming a log that could not be stored.
   void stop() override;
 
   void visit(const Request& request, FeelVisit visit) override;

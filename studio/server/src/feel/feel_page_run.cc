@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
+#include "asperity/base/text.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/session/our_file.h"
 #include "asperity/verdict/verdict_json.h"
@@ -292,13 +293,20 @@ void FeelPage::stop() {
   run_.reset();
   state_ = State::kIdle;
   // Nothing is brought to this thread any more.
+  std::string lost;
   for (const FinishedLog& ended : finished_logs_->take()) {
     try {
-      if (ended.log) ended.log->commit();
-    } catch (const std::exception&) {
-      continue;  // there is nobody left to be told
+      if (ended.log) {
+        ended.log->commit();
+      } else {
+        lost = ended.fault;
+      }
+    } catch (const std::exception& fault) {
+      lost = fault.what();
     }
   }
+  // No browser is there any more: the studio's end states it.
+  if (!lost.empty()) throw Error("the log " + printable(log_name_, 200) + " is lost: " + lost);
 }
 
 }  // namespace asperity::studio

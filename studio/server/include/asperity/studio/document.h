@@ -39,10 +39,13 @@ class Document {
 
   // Before load(): a page's section with its first value.
   void add_section(const std::string& name, Json first, Validator validator, Updater updater = {});
-  // Reads the file. A section that its page does not take begins with its first value, and a note is left.
+  // Reads the file. A section that its page does not take begins with its first value; the file as it was is then kept
+  // as FILE.before, and notes are left. Throws Error where a file cannot be looked at, renamed or copied: the next save
+  // would replace it.
   void load();
-  // The same of the file's content. Throws Error if it is not a document at all; the value is then of no use.
-  void read(std::string_view text);
+  // The same of the file's content; false if a section was not taken. Throws Error if it is not a document at all; the
+  // value is then of no use.
+  bool read(std::string_view text);
 
   const Json& value() const { return value_; }
   const Json& section(std::string_view name) const;

@@ -23,7 +23,8 @@ struct StudioConfig {
   std::function<void(const std::string& sentence)> notice;
 };
 
-// Runs the studio until `stop`. `started` is given the address. Throws Error if it cannot begin.
+// Runs the studio until `stop`. `started` is given the address. Throws Error if it cannot begin, and after its end if
+// the last changes or a log could not be stored.
 void run_studio(const StudioConfig& config, const std::function<void(const std::string& address)>& started,
                 const std::atomic<bool>& stop);
 
