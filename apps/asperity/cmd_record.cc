@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/camera/frame_writer.h"
 #include "asperity/recorder/recorder.h"
@@ -110,8 +111,14 @@ class RecordCommand : public Command {
     RecordOutcome outcome;
     outcome.recording = output_;
     {
-      Recorder recorder(output_, info_, calibration,
-                        make_record_sensors(input_, calibration, settings_.track, on_frame), settings_.recorder);
+      RecorderSensors sensors = make_record_sensors(input_, calibration, settings_.track, on_frame);
+      if (kept) {
+        sensors.failure_besides = [&kept, capture = sensors.failure_besides] {
+          const std::string failure = kept->counts().failure;
+          return failure.empty() && capture ? capture() : failure;
+        };
+      }
+      Recorder recorder(output_, info_, calibration, std::move(sensors), settings_.recorder);
       outcome.end = watch(recorder);
       storing_ = false;
       outcome.recorder = recorder.finish();
@@ -119,6 +126,7 @@ class RecordCommand : public Command {
     if (kept) {
       kept->finish();
       outcome.frames = kept->counts();
+      if (!outcome.frames.failure.empty()) throw Error(outcome.frames.failure);
     }
     return report(outcome, calibration.has_value());
   }

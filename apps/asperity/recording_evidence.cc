@@ -36,7 +36,6 @@ RecordingEvidence recording_evidence(const RecorderSnapshot& end, const FrameWri
   out.poses_overflowed = end.poses.overflowed;
   out.tracker_message = end.poses.message;
   out.frames_not_kept = frames.dropped;
-  out.frames_failure = frames.failure;
   out.sources = {source_evidence("the probe", end.probe), source_evidence("the tracker", end.poses)};
   out.gravity_measured = end.gravity.measured;
   out.gravity_implausible = end.gravity.implausible;

@@ -92,11 +92,12 @@ void sync(const fs::path& path, const fs::path& target) {
     throw Error(target.string() + ": cannot be written: " + std::strerror(error));
 }
 
-// What was put in place, for those who ask what an interrupted program leaves.
+// What was put in place, for those who ask what an interrupted program leaves. Guarded by unfinished_mutex.
 constexpr std::size_t kMostNamed = 3;
 Lasting<std::vector<fs::path>> lasting_in_place;
 std::vector<fs::path>& in_place = lasting_in_place.value;
 std::size_t in_place_count = 0;
+bool is_ending = false;  // what was unfinished is removed, and what was put in place is about to be told
 
 // A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is
 // there must be told all the same.
@@ -108,6 +109,10 @@ class OutputNote {
   }
   void make() noexcept {
     const std::lock_guard lock(unfinished_mutex);
+    make_locked();
+  }
+  // The same by who holds the mutex.
+  void make_locked() noexcept {
     if (std::find(in_place.begin(), in_place.end(), path_) != in_place.end()) return;
     if (in_place.size() < kMostNamed) in_place.push_back(std::move(path_));
     ++in_place_count;
@@ -115,6 +120,31 @@ class OutputNote {
 
  private:
   fs::path path_;
+};
+
+// Held while something is put in place: over the renames, the end of its entry in `unfinished`, and its note. The
+// thread that waits for signals removes what is unfinished and tells what is in place under the same mutex, so that it
+// sees all of this or nothing: it never says that nothing was written where something is, and never removes a folder
+// that was replaced, which has the temporary name after an exchange. Once it has removed, whoever comes here waits for
+// the program's end, or what it is about to say would be false.
+//
+// It cannot come to a deadlock: whoever holds the mutex locks nothing else, waits for nothing and calls nobody, but
+// renames or removes, which ends unless the disk hangs. On such a disk SIGKILL alone ends the program. Who waits for
+// the program's end does not hold it. What is done under this lock takes no memory: it cannot end halfway by the lack
+// of it.
+class PlacingLock {
+ public:
+  PlacingLock() {
+    unfinished_mutex.lock();
+    while (is_ending) {
+      unfinished_mutex.unlock();
+      ::pause();
+      unfinished_mutex.lock();
+    }
+  }
+  ~PlacingLock() { unfinished_mutex.unlock(); }
+  PlacingLock(const PlacingLock&) = delete;
+  PlacingLock& operator=(const PlacingLock&) = delete;
 };
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
@@ -126,6 +156,52 @@ std::set<fs::path> names_in(const fs::path& folder, std::error_code& error) {
     out.insert(entry->path().lexically_relative(folder));
   }
   return out;
+}
+
+// By who holds a PlacingLock: what is in place is not unfinished any more.
+void end_placing(fs::path& temporary, OutputNote& note) noexcept {
+  unfinished.erase(temporary);
+  temporary.clear();
+  note.make_locked();
+}
+
+// Puts a folder where there is none; `temporary` is then empty. Throws Error.
+void place(fs::path& temporary, const fs::path& target, OutputNote& note) {
+  {
+    const PlacingLock lock;
+    if (::rename(temporary.c_str(), target.c_str()) == 0) return end_placing(temporary, note);
+  }
+  throw Error(target.string() + ": cannot be written: " + reason());
+}
+
+// Puts a folder in the place of another; `temporary` is then empty. Gives the name that the other has then. Throws
+// Error.
+fs::path exchange(fs::path& temporary, const fs::path& target, OutputNote& note) {
+  fs::path exchanged = temporary;
+  fs::path moved = temporary;
+  moved += ".old";
+  bool is_lost = false;
+  int error = 0;
+  {
+    const PlacingLock lock;
+    // Exchanging the two names leaves no moment without a whole folder in place.
+    if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) {
+      end_placing(temporary, note);
+      return exchanged;
+    }
+    // Some file systems cannot (NFS, vfat, many of FUSE). Between these two renames nothing has the target's name
+    // (docs/crashes.md).
+    const bool is_moved = ::rename(target.c_str(), moved.c_str()) == 0;
+    if (is_moved && ::rename(temporary.c_str(), target.c_str()) == 0) {
+      end_placing(temporary, note);
+      return moved;
+    }
+    error = errno;
+    is_lost = is_moved && ::rename(moved.c_str(), target.c_str()) != 0;
+  }
+  std::string text = target.string() + ": cannot be replaced: " + std::strerror(error);
+  if (is_lost) text += "; what was there is whole in " + moved.string() + " and can be renamed back";
+  throw Error(text);
 }
 
 }  // namespace
@@ -177,12 +253,18 @@ void OutputFile::commit() {
   // for whatever else the machine is writing.
   const bool alone = !is_in_unfinished_folder(target_);
   OutputNote note(target_);
-  if ((alone && ::fsync(file_) != 0) || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw Error(target_.string() + ": cannot be written: " + reason());
+  bool placed = !alone || ::fsync(file_) == 0;
+  if (placed) {
+    const PlacingLock lock;
+    placed = ::rename(temporary_.c_str(), target_.c_str()) == 0;
+    if (placed) {
+      unfinished.erase(temporary_);
+      if (alone) note.make_locked();
+    }
   }
+  if (!placed) throw Error(target_.string() + ": cannot be written: " + reason());
   close();
   if (!alone) return;
-  note.make();
   if (const int error = try_sync(folder_of(target_)); error != 0)
     throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error));
 }
@@ -199,6 +281,8 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
                   ": exists and was not written by asperity; nothing was changed. Choose another output folder");
     }
     known_ = names_in(target_, error);
+    // All that is not known would be taken for what others have put there meanwhile.
+    if (error) throw Error(target_.string() + ": cannot be read: " + error.message() + "; nothing was changed");
   }
   if (target_.has_parent_path()) {
     fs::create_directories(target_.parent_path(), error);
@@ -219,46 +303,38 @@ OutputFolder::~OutputFolder() {
 }
 
 std::vector<fs::path> OutputFolder::commit() {
-  std::error_code ignored;
-  std::vector<fs::path> kept;
   OutputNote note(target_);
   // What gets the name must be whole on the disk before, or a power cut leaves the name with half of it.
-  for (const fs::path& name : names_in(temporary_, ignored)) sync(temporary_ / name, target_);
-  sync(temporary_, target_);
-  if (fs::exists(target_, ignored)) {
-    fs::path old = temporary_;
-    // Made before, as the note is.
-    const Error no_memory(target_.string() +
-                          ": is written, but there is not enough memory to remove what it replaced; " +
-                          "the name of its folder begins with " + old.string());
-    // Exchanging the two names leaves no moment without a whole folder in place.
-    if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
-      old += ".old";
-      if (::rename(target_.c_str(), old.c_str()) != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
-        const std::string why = reason();
-        ::rename(old.c_str(), target_.c_str());
-        throw Error(target_.string() + ": cannot be replaced: " + why);
-      }
-    }
-    mark_finished(temporary_);
-    temporary_.clear();
-    note.make();
-    try {
-      sync_name("; what it replaced is kept in " + old.string());
-      kept = keep_strangers(old);
-      fs::remove_all(old, ignored);
-    } catch (const std::bad_alloc&) {
-      throw no_memory;
-    }
-  } else if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw Error(target_.string() + ": cannot be written: " + reason());
-  } else {
-    mark_finished(temporary_);
-    temporary_.clear();
-    note.make();
-    sync_name();
+  std::error_code unread;
+  const std::set<fs::path> names = names_in(temporary_, unread);
+  if (unread) {
+    throw Error(target_.string() + ": cannot be written: what is to be put there cannot be read: " + unread.message());
   }
-  return kept;
+  for (const fs::path& name : names) sync(temporary_ / name, target_);
+  sync(temporary_, target_);
+  std::error_code ignored;
+  if (!fs::exists(target_, ignored)) {
+    place(temporary_, target_, note);
+    sync_name();
+    return {};
+  }
+  // Made before, as the note is.
+  const Error no_memory(target_.string() + ": is written, but there is not enough memory to remove what it replaced; " +
+                        "the name of its folder begins with " + temporary_.string());
+  const fs::path old = exchange(temporary_, target_, note);
+  try {
+    sync_name("; what it replaced is kept in " + old.string());
+    std::vector<fs::path> kept = keep_strangers(old);
+    std::error_code unremoved;
+    fs::remove_all(old, unremoved);
+    if (unremoved) {
+      throw Error(target_.string() + ": is written, but what it replaced cannot be removed: " + unremoved.message() +
+                  "; what is left of it is in " + old.string());
+    }
+    return kept;
+  } catch (const std::bad_alloc&) {
+    throw no_memory;
+  }
 }
 
 // The name that the folder has now, and what was kept in it, on the disk.
@@ -314,6 +390,7 @@ void remove_unfinished_output() {
   std::error_code ignored;
   for (const auto& path : unfinished) fs::remove_all(path, ignored);
   unfinished.clear();
+  is_ending = true;
 }
 
 }  // namespace asperity

@@ -1,7 +1,10 @@
 #include "asperity/base/output.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -35,6 +38,33 @@ TEST(Output, FolderAppearsWholeOrNotAtAll) {
   }
   EXPECT_EQ(read_file(dir / "out" / "mark", 10), "2");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
+}
+
+// What cannot be listed was not forced to the disk either: it must not replace what is.
+TEST(Output, AFolderThatCannotBeListedReplacesNothing) {
+  const testkit::TempDir dir;
+  std::filesystem::create_directories(dir / "out");
+  write_file(dir / "out" / "mark", "old");
+  OutputFolder folder(dir / "out", has_mark);
+  std::filesystem::create_directories(folder.path() / "a/b/c/d/e/f/g/h");
+  write_file(folder.path() / "mark", "new");
+  // No more files can be opened than a few: each level of folders that is listed takes one.
+  const int next = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(next, 0);
+  ::close(next);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit few{static_cast<rlim_t>(next) + 4, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  std::string said;
+  try {
+    folder.commit();
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_NE(said.find("out: cannot be written"), std::string::npos) << said;
+  EXPECT_EQ(read_file(dir / "out" / "mark", 10), "old");
 }
 
 TEST(Output, AFileInPiecesAppearsWholeOrNotAtAll) {

@@ -1,10 +1,12 @@
 #include "asperity/camera/frame_writer.h"
 
 #include <exception>
-#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/sync_folder.h"
 #include "asperity/image/png_image.h"
 
 namespace asperity {
@@ -69,15 +71,16 @@ void FrameWriter::write(const CameraFrame& frame) const {
   const std::size_t size = static_cast<std::size_t>(frame.image.width) * static_cast<std::size_t>(frame.image.height);
   if (size == 0 || frame.image.pixels.size() != size) throw Error("frames: an image of no size");
   const std::string png = format_png(frame.image);
-  std::filesystem::create_directories(folder_);
-  // First under another name: whoever dies in between leaves no half an image.
-  const std::filesystem::path path = folder_ / (std::to_string(frame.t_ns) + ".png");
-  const std::filesystem::path temporary = folder_ / ".png.new";
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(png.data(), static_cast<std::streamsize>(png.size()));
-  out.close();
-  if (!out) throw Error(path.string() + ": cannot be written");
-  std::filesystem::rename(temporary, path);
+  make_folder();
+  write_file(folder_ / (std::to_string(frame.t_ns) + ".png"), png);
+}
+
+void FrameWriter::make_folder() const {
+  std::error_code error;
+  const bool is_new = std::filesystem::create_directories(folder_, error);
+  if (error) throw Error(folder_.string() + ": cannot be made: " + error.message());
+  // Images that are forced to the disk are of no use in a folder whose name is not.
+  if (is_new) sync_folder(folder_.parent_path());
 }
 
 }  // namespace asperity

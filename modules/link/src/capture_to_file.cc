@@ -4,8 +4,10 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <utility>
 
+#include "asperity/base/sync_folder.h"
 #include "asperity/base/text.h"
 #include "capture_format.h"
 
@@ -37,6 +39,11 @@ class NewFile {
     }
   }
 
+  void sync() {
+    if (::fsync(file_) == 0) return;
+    throw Error(path_.string() + ": cannot be forced to the disk: " + std::strerror(errno));
+  }
+
  private:
   [[noreturn]] void fail() const { throw Error(path_.string() + ": cannot be written: " + std::strerror(errno)); }
 
@@ -46,22 +53,29 @@ class NewFile {
 
 class CapturingSource : public ByteSource {
  public:
-  CapturingSource(std::unique_ptr<ByteSource> source, const fs::path& path)
-      : source_(std::move(source)), bytes_(path), arrivals_(arrivals_path(path)) {
+  CapturingSource(std::unique_ptr<ByteSource> source, const fs::path& path, std::shared_ptr<CaptureFailure> failure)
+      : source_(std::move(source)),
+        folder_(path.parent_path()),
+        failure_(std::move(failure)),
+        bytes_(path),
+        arrivals_(arrivals_path(path)) {
     arrivals_.append(kArrivalsHeader.data(), kArrivalsHeader.size());
+  }
+
+  ~CapturingSource() override {
+    if (failed_) return;
+    try {
+      bytes_.sync();
+      arrivals_.sync();
+      sync_folder(folder_);
+    } catch (const std::exception& error) {
+      failure_->note(error.what());
+    }
   }
 
   Arrival read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
     const Arrival arrival = source_->read(into, timeout);
-    if (arrival.count == 0) return arrival;
-    // A line without its bytes would be a fault, bytes without their line are merely not replayed.
-    bytes_.append(into.data(), arrival.count);
-    line_.clear();
-    append_number(line_, static_cast<std::int64_t>(arrival.count));
-    line_ += ',';
-    append_number(line_, arrival.arrival_ns);
-    line_ += '\n';
-    arrivals_.append(line_.data(), line_.size());
+    if (arrival.count > 0 && !failed_) keep(into.first(arrival.count), arrival.arrival_ns);
     return arrival;
   }
 
@@ -69,7 +83,27 @@ class CapturingSource : public ByteSource {
   std::string name() const override { return source_->name(); }
 
  private:
+  // Who reads would take an error of the disk for a probe that was lost.
+  void keep(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns) {
+    try {
+      // A line without its bytes would be a fault, bytes without their line are merely not replayed.
+      bytes_.append(bytes.data(), bytes.size());
+      line_.clear();
+      append_number(line_, static_cast<std::int64_t>(bytes.size()));
+      line_ += ',';
+      append_number(line_, arrival_ns);
+      line_ += '\n';
+      arrivals_.append(line_.data(), line_.size());
+    } catch (const Error& error) {
+      failed_ = true;
+      failure_->note(error.what());
+    }
+  }
+
   std::unique_ptr<ByteSource> source_;
+  fs::path folder_;
+  std::shared_ptr<CaptureFailure> failure_;
+  bool failed_ = false;
   NewFile bytes_;
   NewFile arrivals_;
   std::string line_;
@@ -77,8 +111,9 @@ class CapturingSource : public ByteSource {
 
 }  // namespace
 
-std::unique_ptr<ByteSource> capture_to_file(std::unique_ptr<ByteSource> source, const fs::path& path) {
-  return std::make_unique<CapturingSource>(std::move(source), path);
+std::unique_ptr<ByteSource> capture_to_file(std::unique_ptr<ByteSource> source, const fs::path& path,
+                                            std::shared_ptr<CaptureFailure> failure) {
+  return std::make_unique<CapturingSource>(std::move(source), path, std::move(failure));
 }
 
 }  // namespace asperity

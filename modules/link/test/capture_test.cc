@@ -1,7 +1,10 @@
 #include "asperity/link/open_capture.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <csignal>
 #include <fstream>
+#include <memory>
 
 #include "asperity/base/csv.h"
 #include "asperity/link/capture_to_file.h"
@@ -69,10 +72,12 @@ void write_bytes(const std::filesystem::path& path, const Bytes& bytes) {
 const std::vector<Piece> kPieces{
     {{1, 2, 3}, 5'000}, {{}, 5'500}, {{0, 255}, 6'000'000}, {{4}, 6'000'000}, {Bytes(300, 9), 9'000'000'000}};
 
+const auto failure = std::make_shared<CaptureFailure>();
+
 TEST(Capture, IsReplayedAsItCame) {
   const testkit::TempDir dir;
   {
-    const auto source = capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "c.bin");
+    const auto source = capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "c.bin", failure);
     EXPECT_EQ(source->name(), "known");
     EXPECT_TRUE(source->write(Bytes{1}));
     Bytes buffer(1000);
@@ -97,6 +102,24 @@ TEST(Capture, IsReplayedAsItCame) {
         replay->read(room, 1s);
       },
       ThrowsMessage<LinkLost>(HasSubstr("c.bin: is at its end")));
+}
+
+// What the disk refuses is no fault of the probe: its bytes go on, and the reason is told beside them.
+TEST(Capture, ADiskThatIsFullEndsTheCaptureOnly) {
+  const testkit::TempDir dir;
+  const auto refused = std::make_shared<CaptureFailure>();
+  const auto source = capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "c.bin", refused);
+  EXPECT_EQ(refused->reason(), "");
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{100, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::vector<Piece> came = read_all(*source);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(joined(came), joined(kPieces));
+  EXPECT_THAT(refused->reason(), AllOf(HasSubstr((dir / "c.bin").string()), HasSubstr("File too large")));
 }
 
 TEST(Capture, AtAByteRate) {
@@ -141,9 +164,9 @@ TEST(Capture, WhatCannotBeReplayedIsRefused) {
     EXPECT_THAT([&] { open_capture(dir / "c.bin", {}); }, ThrowsMessage<Error>(HasSubstr("c.bin.arrivals.csv")))
         << text;
   }
-  EXPECT_THAT([&] { capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "c.bin"); },
+  EXPECT_THAT([&] { capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "c.bin", failure); },
               ThrowsMessage<Error>(HasSubstr("exists already")));
-  EXPECT_THAT([&] { capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "no/c.bin"); },
+  EXPECT_THAT([&] { capture_to_file(std::make_unique<KnownSource>(kPieces), dir / "no/c.bin", failure); },
               ThrowsMessage<Error>(HasSubstr("cannot be written")));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <span>
@@ -124,6 +125,7 @@ class Recorder::Parts {
         RecorderSensors sensors, const RecorderConfig& config)
       : config_(config),
         replayed_(sensors.replayed),
+        failure_besides_(sensors.failure_besides),
         start_ns_(host_now_ns()),
         probe_rate_(start_ns_),
         pose_rate_(start_ns_) {
@@ -195,13 +197,24 @@ class Recorder::Parts {
   void run() {
     for (bool last = false; !last;) {
       last = stop_asked();
-      RecorderSnapshot now = take_round();
-      const std::int64_t before_ns = host_now_ns();
-      // When the disk has failed, memory stays bounded and the figures go on.
-      if (failure_.empty()) write_round(now, last);
-      highest_write_s_ = std::max(highest_write_s_, seconds(host_now_ns() - before_ns));
-      publish(std::move(now));
+      try {
+        do_round(last);
+      } catch (const std::exception& error) {  // no memory for a snapshot: rows may have been lost with it
+        if (failure_.empty()) failure_ = error.what();
+        const std::lock_guard lock(snapshot_mutex_);
+        snapshot_.failure = failure_;
+      }
     }
+  }
+
+  void do_round(bool last) {
+    RecorderSnapshot now = take_round();
+    const std::int64_t before_ns = host_now_ns();
+    // When the disk has failed, memory stays bounded and the figures go on.
+    if (failure_.empty()) write_round(now, last);
+    highest_write_s_ = std::max(highest_write_s_, seconds(host_now_ns() - before_ns));
+    if (refused_besides_.empty() && failure_besides_) refused_besides_ = failure_besides_();
+    publish(std::move(now));
   }
 
   // Empties the queues; how the sensors stand.
@@ -263,13 +276,14 @@ class Recorder::Parts {
       if (body.pose) body.pose_age_s = seconds(host_now_ns() - body.pose->t_ns);
     }
     now.highest_write_s = highest_write_s_;
-    now.failure = failure_;
+    now.failure = failure_.empty() ? refused_besides_ : failure_;
     const std::lock_guard lock(snapshot_mutex_);
     snapshot_ = std::move(now);
   }
 
   RecorderConfig config_;
   bool replayed_;
+  std::function<std::string()> failure_besides_;
   std::int64_t start_ns_;
   std::optional<ProbeThread> probe_;
   std::optional<PoseThread> poses_;
@@ -281,8 +295,9 @@ class Recorder::Parts {
   RateMeter probe_rate_;
   RateMeter pose_rate_;
   double highest_write_s_ = 0.0;
-  std::uint64_t events_ = 0;  // sensors lost and returned
-  std::string failure_;
+  std::uint64_t events_ = 0;     // sensors lost and returned
+  std::string failure_;          // of the recording: nothing more is written to it
+  std::string refused_besides_;  // of what is written besides it
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -208,6 +208,30 @@ TEST(Recorder, AFaultIsToldFromTheEnd) {
   }
 }
 
+// What cannot be written besides the recording ends the take, and the recording is final with all its rows.
+TEST(Recorder, AFailureBesidesEndsTheTakeAndTheRecordingIsWhole) {
+  RecorderRig rig;
+  rig.config.start_at_once = true;
+  std::atomic<bool> fails{false};
+  RecorderSensors sensors;
+  sensors.open_probe = [] { return std::make_unique<ReplayedProbe>(5'000'000, 250'000, 6000); };
+  sensors.probe_describes_itself = false;
+  sensors.reopen_probe = false;
+  sensors.replayed = true;
+  sensors.failure_besides = [&fails] { return std::string(fails ? "capture.bin: disk full" : ""); };
+  Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe_rows > 0; }));
+  EXPECT_EQ(recorder.snapshot().failure, "");
+  fails = true;
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return !now.failure.empty(); }));
+  EXPECT_EQ(recorder.snapshot().failure, "capture.bin: disk full");
+  EXPECT_THROW(recorder.finish(), Error);
+  const std::string info = read_file(rig.folder() / "recording.json", 100'000);
+  EXPECT_NE(info.find("\"finished\""), std::string::npos) << info;
+  const std::string rows = read_file(rig.folder() / "probe.csv", 10'000'000);
+  EXPECT_EQ(static_cast<std::uint64_t>(std::count(rows.begin(), rows.end(), '\n') - 1), recorder.snapshot().probe_rows);
+}
+
 // The figures of one snapshot belong together, whichever thread asks.
 TEST(Recorder, SnapshotsAreOfOneMoment) {
   RecorderRig rig;

@@ -65,6 +65,34 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   };
 }
 
+// The captures of one take. A link that is lost and comes back goes on in a file of its own: a capture is one run of a
+// decoder. One thread at a time, but for failure().
+class ProbeCaptures {
+ public:
+  explicit ProbeCaptures(std::string first) : first_(std::move(first)) {}
+
+  // Throws Error if the first cannot be made, before the take begins. Any other ends the take by failure().
+  std::unique_ptr<ByteSource> begin(std::unique_ptr<ByteSource> source) {
+    if (++count_ == 1) return capture_to_file(std::move(source), first_, failure_);
+    // What others have put under such a name is no reason to end a take.
+    while (std::filesystem::exists(std::filesystem::symlink_status(path()))) ++count_;
+    try {
+      return capture_to_file(std::move(source), path(), failure_);
+    } catch (const Error& error) {
+      failure_->note(error.what());
+      throw;
+    }
+  }
+  std::string failure() const { return failure_->reason(); }
+
+ private:
+  std::string path() const { return first_ + "." + std::to_string(count_); }
+
+  std::string first_;
+  int count_ = 0;
+  std::shared_ptr<CaptureFailure> failure_ = std::make_shared<CaptureFailure>();
+};
+
 }  // namespace
 
 void check_record_addresses(const RecordInput& input) {
@@ -108,16 +136,15 @@ RecorderSensors make_record_sensors(const RecordInput& input, const std::optiona
   out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
   out.reopen_silent_probe = probe.kind != ProbeLinkKind::kUdp;
   out.replayed = !out.reopen_probe;
-  // A link that is lost and comes back goes on in a file of its own: a capture is one run of a decoder.
-  const auto captures = std::make_shared<int>(0);
-  out.open_probe = [=, capture = input.capture] {
-    auto source = open_probe_source(probe, protocol);
-    if (!capture.empty()) {
-      ++*captures;
-      source = capture_to_file(std::move(source), *captures == 1 ? capture : capture + "." + std::to_string(*captures));
-    }
-    return make_probe_source(ProbeLink(std::move(source), protocol));
-  };
+  if (!input.capture.empty()) {
+    const auto captures = std::make_shared<ProbeCaptures>(input.capture);
+    out.open_probe = [=] {
+      return make_probe_source(ProbeLink(captures->begin(open_probe_source(probe, protocol)), protocol));
+    };
+    out.failure_besides = [captures] { return captures->failure(); };
+  } else {
+    out.open_probe = [=] { return make_probe_source(ProbeLink(open_probe_source(probe, protocol), protocol)); };
+  }
   if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
   if (!input.poses.empty()) {
     const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <deque>
+#include <filesystem>
+#include <fstream>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/camera/frame_writer.h"
 #include "asperity/image/read_gray_image.h"
@@ -104,6 +107,32 @@ TEST(FrameWriter, KeepsImagesExactly) {
     const GrayImage image = read_gray_image(dir / "frames" / (std::to_string(1000 + i) + ".png"));
     EXPECT_EQ(image.pixels, plain_image(static_cast<std::uint8_t>(80 * i)).pixels);
   }
+}
+
+// What others have put into the folder is neither followed nor replaced.
+TEST(FrameWriter, WritesThroughNoLinkOfOthers) {
+  const testkit::TempDir dir;
+  std::filesystem::create_directories(dir / "frames");
+  std::ofstream(dir / "elsewhere") << "theirs";
+  std::filesystem::create_symlink(dir / "elsewhere", dir / "frames" / ".png.new");
+  FrameWriter writer(dir / "frames");
+  writer.push({1, plain_image(1)});
+  writer.finish();
+  EXPECT_EQ(writer.counts().failure, "");
+  EXPECT_EQ(read_file(dir / "elsewhere", 100), "theirs");
+  EXPECT_FALSE(std::filesystem::is_symlink(dir / "frames" / "1.png"));
+}
+
+TEST(FrameWriter, NamesTheImageThatCannotBeWrittenAndWhy) {
+  const testkit::TempDir dir;
+  std::filesystem::create_directories(dir / "frames" / "2.png");
+  FrameWriter writer(dir / "frames");
+  for (int i = 1; i <= 3; ++i) writer.push({i, plain_image(1)});
+  writer.finish();
+  EXPECT_EQ(writer.counts().written, 1u);
+  EXPECT_EQ(writer.counts().dropped, 2u);
+  EXPECT_THAT(writer.counts().failure, testing::HasSubstr((dir / "frames" / "2.png").string() + ": cannot be written"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir / "frames"), {}), 2);
 }
 
 TEST(FrameWriter, SaysWhatItCouldNotKeep) {

@@ -73,10 +73,7 @@ void judge_tracker(const RecordingEvidence& e, const JudgeRecordingConfig& confi
     out.push_back(make_verdict(
         "images_skipped", fmt::format("{} images were skipped: tracking is slower than the camera", e.frames_skipped)));
   }
-  if (!e.frames_failure.empty()) {
-    out.push_back(
-        make_verdict("frames_not_kept", "images were not stored: " + printable(e.frames_failure, kLongestMessage)));
-  } else if (e.frames_not_kept > 0) {
+  if (e.frames_not_kept > 0) {
     out.push_back(make_verdict(
         "frames_not_kept", fmt::format("{} images were not stored: the disk or PNG is too slow", e.frames_not_kept)));
   }

@@ -45,7 +45,6 @@ TEST(JudgeRecording, NamesEachFaultByItsCode) {
       {"markers_hidden", "only 20 %", [](Evidence& e) { e.poses = 100; }},
       {"images_skipped", "30 images", [](Evidence& e) { e.frames_skipped = 30; }},
       {"frames_not_kept", "4 images", [](Evidence& e) { e.frames_not_kept = 4; }},
-      {"frames_not_kept", "disk full", [](Evidence& e) { e.frames_failure = "disk full"; }},
       {"source_failed", "the tracker ended by a fault: torn",
        [](Evidence& e) {
          e.sources[1] = {"the tracker", true, 0, true, "torn"};

@@ -69,8 +69,8 @@ void note_output(const std::filesystem::path& path);
 // What was put in place by now, the first three by name; empty if nothing was.
 std::string outputs_in_place();
 
-// Removes the temporary files and folders that are in use now. Called when the program is stopped by
-// a signal; not safe inside the handler itself.
+// Removes the temporary files and folders that are in use now. Called when the program is stopped by a signal, just
+// before it ends: from then on commit() waits for that end. Not safe inside the handler itself.
 void remove_unfinished_output();
 
 }  // namespace asperity

@@ -13,7 +13,8 @@
 namespace asperity {
 
 // Keeps camera images as PNG files named by their t_ns, as in the frames/ of a recording, in a thread of its own.
-// Images that come faster than they can be written are dropped and counted.
+// Each is whole and forced to the disk under its name, or not there. Images that come faster than they can be written
+// are dropped and counted; with the first that the disk refuses none are written any more.
 class FrameWriter {
  public:
   // `folder` is made with the first image.
@@ -28,7 +29,7 @@ class FrameWriter {
   struct FrameCounts {
     std::uint64_t written = 0;
     std::uint64_t dropped = 0;
-    std::string failure;  // why none are written any more; empty: nothing is wrong
+    std::string failure;  // why none are written any more, naming the file; empty: nothing is wrong
   };
   FrameCounts counts() const;
   // Writes what waits.
@@ -37,6 +38,7 @@ class FrameWriter {
  private:
   void run();
   void write(const CameraFrame& frame) const;
+  void make_folder() const;
 
   std::filesystem::path folder_;
   std::size_t most_waiting_;

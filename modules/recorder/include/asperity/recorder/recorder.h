@@ -27,6 +27,9 @@ struct RecorderSensors {
   bool reopen_silent_probe = true;
   bool reopen_silent_poses = true;
   bool replayed = false;  // times are not of now: commands happen at the newest row's
+  // Why something that is written besides the recording, such as a capture, cannot be; empty: nothing is wrong. The
+  // first reason ends the take, and the recording is whole. Any thread; may be none.
+  std::function<std::string()> failure_besides = nullptr;
 };
 
 // Records a probe and a tracker (seed §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
@@ -58,7 +61,8 @@ class Recorder {
   RecorderSnapshot snapshot() const;
 
   // Stops the sensors, writes what waits, and makes the recording final. The snapshot at the end. Throws Error if the
-  // recording could not be written; the rows so far remain readable.
+  // recording could not be written, where the rows so far remain readable, or what is written besides it, where the
+  // recording is final all the same.
   RecorderSnapshot finish();
 
  private:

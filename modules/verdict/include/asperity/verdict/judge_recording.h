@@ -33,8 +33,7 @@ struct RecordingEvidence {
   std::uint64_t poses_stored = 0;
   std::uint64_t poses_overflowed = 0;
   std::string tracker_message;
-  std::uint64_t frames_not_kept = 0;
-  std::string frames_failure;  // why they are not kept
+  std::uint64_t frames_not_kept = 0;  // they came faster than they could be written
 
   // Both.
   struct Source {
