@@ -29,7 +29,7 @@ struct RecorderSensors {
   bool replayed = false;  // times are not of now: commands happen at the newest row's
 };
 
-// Records a probe and a tracker (seed §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
+// Records a probe and a tracker (thesis §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
 // disk, and one that writes. Thread-safe but for finish().
 class Recorder {
  public:
