@@ -9,7 +9,7 @@ namespace asperity {
 // RFC 4648, with padding, in one line.
 std::string base64(std::string_view bytes);
 
-// What it spells; nothing if it is not of that alphabet or its length is no multiple of four.
+// The decoded bytes; nothing if a character is not of that alphabet or the length is not a multiple of four.
 std::optional<std::string> bytes_of_base64(std::string_view text);
 
 }  // namespace asperity

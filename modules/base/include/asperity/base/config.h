@@ -14,7 +14,7 @@
 
 namespace asperity {
 
-// Each stage has one config struct with defaults beside its fields and one `visit` that lists them:
+// Each stage has one config struct with a default for each field and one `visit` that lists them:
 //
 //   struct HighPassConfig {
 //     double cutoff_cycles_per_mm = 0.05;

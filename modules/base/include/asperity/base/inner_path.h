@@ -22,7 +22,7 @@ inline std::optional<std::string> inner_path(std::string_view written) {
 }
 
 // The file that `written` names inside `folder`, links followed; none if it would lie outside. Throws std::bad_alloc
-// without memory, and Error if the disk cannot be read: neither says where the file lies.
+// without memory, and Error if the disk cannot be read: neither states where the file is.
 std::optional<std::filesystem::path> inner_file(const std::filesystem::path& folder, std::string_view written);
 
 }  // namespace asperity

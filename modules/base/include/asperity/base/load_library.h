@@ -20,7 +20,7 @@ LibrarySymbol library_symbol(const char* name, Function*& pointer, bool required
 
 // Loads the first of `libraries` that is there and has all required symbols, and sets the addresses; those that are
 // not required are null where it has them not. It is never unloaded: drivers leave threads behind. Throws one
-// Error that begins with `what` ("… was not found") and names every library searched for with what was wrong with it.
+// Error that begins with `what` ("… was not found") and names every library searched for and why it was not usable.
 void load_library(const std::string& what, const std::vector<std::string>& libraries,
                   const std::vector<LibrarySymbol>& symbols);
 

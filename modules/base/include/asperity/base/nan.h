@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-// What stands where there is no number: a gap in a profile, a pose that was not seen.
+// The value where there is no number: a gap in a profile, a pose that was not seen.
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace asperity

@@ -9,12 +9,12 @@
 
 namespace asperity {
 
-// Writes `content` under a temporary name beside `path` and renames it there. Throws Error; on any
+// Writes `content` under a temporary name next to `path` and renames it there. Throws Error; on any
 // failure `path` is as it was. The content is on disk before the rename, unless the file is part of an
 // unfinished OutputFolder: what is in those can be made again.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-// A file written piece by piece, like write_file as a whole or not at all: pieces go to a temporary name beside the
+// A file written piece by piece, like write_file as a whole or not at all: pieces go to a temporary name next to the
 // target, and commit() puts them in its place. Without commit() nothing remains.
 class OutputFile {
  public:
@@ -36,7 +36,7 @@ class OutputFile {
   int file_ = -1;
 };
 
-// A folder written as a whole: files go into path(), a temporary folder beside the target, and
+// A folder written as a whole: files go into path(), a temporary folder next to the target, and
 // commit() puts it in the target's place by rename. Without commit() nothing remains.
 class OutputFolder {
  public:

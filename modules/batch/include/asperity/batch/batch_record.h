@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// What became of a step. Exit codes are those of the commands: 0 done, 3 done and not to be trusted, others failed; 128
+// What became of a step. Exit codes are those of the commands: 0 done, 3 an invalid result, others failed; 128
 // + a signal's number.
 struct StepRecord {
   std::string name;
@@ -20,7 +20,7 @@ struct StepRecord {
   bool is_done() const { return exit_code == 0 || exit_code == 3; }
 };
 
-// OUTPUT/NAME/batch.json: what has been done of a scan, so that a batch goes on where it stopped.
+// OUTPUT/NAME/batch.json: what has been done of a scan, so that a batch continues where it stopped.
 struct ScanRecord {
   std::string name;
   std::string recording;
@@ -32,7 +32,7 @@ struct ScanRecord {
 // read: a thousand recordings would take minutes.
 std::string inputs_fingerprint(const std::filesystem::path& folder, const std::vector<std::string>& inputs);
 
-// True if `record` says that `step` was done with these words and inputs by this version, and its output is there.
+// True if `record` states that `step` was done with these words and inputs by this version, and its output is there.
 bool is_up_to_date(const StepRecord& record, const BatchStep& step, const std::filesystem::path& folder,
                    const std::string& fingerprint);
 

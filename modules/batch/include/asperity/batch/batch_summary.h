@@ -20,7 +20,7 @@ struct SummaryRow {
   std::string report;              // relative to the folder of the results; empty: there is none
 };
 
-// The names of the measured values, with units, and their standard errors or 95 % limits beside them.
+// The names of the measured values, with units, and their standard errors or 95 % limits.
 std::vector<std::string> summary_columns();
 
 // The rows of one scan, read from what its steps have written. `results` is the folder of all results.

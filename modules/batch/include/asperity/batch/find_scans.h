@@ -14,7 +14,7 @@ struct BatchScan {
 // The recordings that `patterns` mean, relative to `folder`, each once, in the order of their names. In a pattern `*`,
 // `?` and `[…]` stand within one name and `**` for any number of folders; of what a pattern finds only recordings
 // (folders with a recording.json) are taken, and hidden folders are passed over. Throws Error for a path without such
-// signs that is no recording, and for a pattern that finds none.
+// signs that is not a recording, and for a pattern that finds none.
 std::vector<BatchScan> find_scans(const std::filesystem::path& folder, const std::vector<std::string>& patterns);
 
 // A scan's name as one file's name: `s1/scan` as `s1-scan`.

@@ -28,7 +28,7 @@ struct WorkflowFile {
 
 // A workflow of Snakemake 7: Snakefile, scans.json (scans and the files that they are made from), slurm/config.yaml (a
 // profile: `snakemake --profile slurm`) and slurm/status.sh (a job's state by scontrol, without accounting). One rule
-// does a scan, by `asperity batch PLAN --scan NAME`, and one the summary; a result that is not to be trusted (3) is a
+// does a scan, by `asperity batch PLAN --scan NAME`, and one the summary; an invalid result (3) is a
 // result. Throws Error naming a path that Snakemake cannot take (with braces).
 std::vector<WorkflowFile> make_snakemake_workflow(const WorkflowInput& input);
 

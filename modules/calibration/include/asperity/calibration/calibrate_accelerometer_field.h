@@ -68,7 +68,7 @@ struct AccelerometerFieldResult {
 
 // The accelerometer from gravity alone: held still in a few dozen directions, every mean reading lies on the
 // ellipsoid counts = B f + C, |f| = g. Nine parameters; a rotation of f changes nothing, so B is taken lower
-// triangular, which lays the sensor's i axis on x and its j axis into the x-y plane (seed §3.5, reference [12] there;
+// triangular, which lays the sensor's i axis on x and its j axis into the x-y plane (thesis §3.5, reference [12] there;
 // errata 5 and 7). Maximum likelihood for equal noise of the pose means on the three axes: the distances from the
 // ellipsoid in counts, d = (|f| − g)/|B⁻ᵀ f/|f||, are made least by Gauss–Newton steps (Sampson's first order; the
 // next is smaller by noise/radius). Huber weights first, then poses beyond `outlier_sigmas` of the residuals' median

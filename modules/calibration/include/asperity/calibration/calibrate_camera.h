@@ -43,7 +43,7 @@ struct CameraFitConfig {
   }
 };
 
-// The intrinsic parameters of a camera from views of a flat board (Zhang, 2000; the seed's §3.5 uses Bouguet's
+// The intrinsic parameters of a camera from views of a flat board (Zhang, 2000; the thesis's §3.5 uses Bouguet's
 // toolbox for the same): least squares of the corners' distances in the image over the camera and the board's pose in
 // each view, from OpenCV's start values. The model is the one of camera_model.h. Standard errors are those of the
 // camera's parameters with all poses free, from the residuals' own variance; where views disagree by more than

@@ -71,8 +71,8 @@ struct ImuCalibration {
   double accel_noise_mps2 = 0.0;                             // of a sample as it was used
   double gyro_noise_radps = 0.0;
   double dispersion = 1.0;    // variance of the calibration by seconds of the recording over that of independent errors
-  double turn_rms_rad = 0.0;  // how far the probe was turned, about its mean
-  Eigen::Vector3d worst_direction = Eigen::Vector3d::UnitZ();  // in the marker frame: the place is known worst along it
+  double turn_rms_rad = 0.0;  // RMS rotation of the probe about its mean
+  Eigen::Vector3d worst_direction = Eigen::Vector3d::UnitZ();  // in the marker frame: the least certain direction
   double duration_s = 0.0;
   std::size_t poses = 0;
   Problems problems;
@@ -88,8 +88,8 @@ struct ImuCalibration {
 // with the latency δ, the accelerometer's place ρ, its rotation M, biases, the gyroscope's matrix E, and gravity within
 // gravity_sigma_mps2. Each kind of measurement has the noise that its own residuals show; standard errors are those of
 // the information matrix, larger where the seconds of the recording disagree (docs/calibration.md). Poses more than
-// outlier_sigmas off are left out. Throws Error, saying what to record instead, for too few poses, a probe that turned
-// by more than two radians from its mean, or motion that does not determine the place.
+// outlier_sigmas off are left out. Throws Error, saying what to record instead, for too few poses, a probe that rotated
+// by more than two radians from its mean, or motion that does not determine the position.
 ImuCalibration calibrate_imu(const Recording& recording, const ImuConfig& config = {});
 
 }  // namespace asperity

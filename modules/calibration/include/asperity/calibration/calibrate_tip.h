@@ -66,21 +66,21 @@ struct TipCalibration {
   CalibrationVerdict verdict;
 };
 
-// The tip's place on the probe by pivoting: the tip stands in a dimple while the probe is swung, so that
+// The tip's position on the probe by pivoting: the tip is in a dimple while the probe is swung, so that
 // R_i t + p_i = c for every pose T_world_marker = (R_i, p_i); t is the tip in the marker frame, c the dimple in the
 // world. The tip here is what stays in place: the centre of its ball, if it has one; the ball's radius does not enter.
 //
-// Search: of poses thinned to equal turns (a rest must not outvote the swing) random fours are solved, and the set of
-// least 40 % quantile of distance wins. Fit: weighted least squares with the tracker's noise in position and rotation,
-// Σ_i = Σ_p + [R_i t]× Σ_φ [R_i t]×ᵀ; the noise of R_i, which also enters the design and would pull t towards the
-// marker, is taken out of the normal equations (Fuller, Measurement Error Models, 1987). Poses further than slip_sigmas
-// of the residuals' own size are left out, and so are their neighbours in time. Standard errors: the tracker's errors
-// are alike from frame to frame, so the sum of the poses' influences is given its long-run variance (in the manner of
-// Newey and West, 1987; window by Sokal's rule, 1997) instead of that of independent frames; the size of the noise
-// comes from the residuals, `tracker` only gives the weights. An error of the tracker that repeats with the direction
-// is not seen.
+// Search: of poses thinned to equal rotations (a static interval must not outvote the swing) random fours are solved,
+// and the set of least 40 % quantile of distance wins. Fit: weighted least squares with the tracker's noise in position
+// and rotation, Σ_i = Σ_p + [R_i t]× Σ_φ [R_i t]×ᵀ; the noise of R_i, which also enters the design and would pull t
+// towards the marker, is taken out of the normal equations (Fuller, Measurement Error Models, 1987). Poses further than
+// slip_sigmas of the residuals' own size are left out, and so are their neighbours in time. Standard errors: the
+// tracker's errors are alike from frame to frame, so the sum of the poses' influences is given its long-run variance
+// (in the manner of Newey and West, 1987; window by Sokal's rule, 1997) instead of that of independent frames; the size
+// of the noise comes from the residuals, `tracker` only gives the weights. An error of the tracker that repeats with
+// the direction is not seen.
 //
-// Throws Error, saying what to do, for fewer than 60 poses, for a probe that hardly turned and for a swing that leaves
+// Throws Error, saying what to do, for fewer than 60 poses, for a probe that hardly rotated and for a swing that leaves
 // a direction of t undetermined (about one axis only: along that axis).
 TipCalibration calibrate_tip(const TrackerStream& poses, const TrackerCalibration& tracker,
                              const CalibrateTipConfig& config = {});

@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-// A tracker's poses with what is needed to know how far and how tilted the tags were.
+// A tracker's poses with the data that give the distance and the tilt of the tags.
 struct StaticTracker {
   std::string name;
   const TrackerStream* tracker = nullptr;
@@ -46,10 +46,10 @@ struct TrackerNoiseConfig {
   }
 };
 
-// The tracker's noise from recordings in which the marker body rests (seed §3.5, Fig. 9): rests are found, the
+// The tracker's noise from recordings in which the marker body rests (thesis §3.5, Fig. 9): rests are found, the
 // scatter of each is taken apart into white and slow (series_noise.h), and with several places the
 // white part's law over distance and tilt is fitted (docs/calibration-optics.md). Throws Error, saying what to record
-// instead, if nothing rests long enough, and as check_independent() does.
+// instead, if no static interval is long enough, and as check_independent() does.
 TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, const TrackerNoiseConfig& config = {});
 
 }  // namespace asperity

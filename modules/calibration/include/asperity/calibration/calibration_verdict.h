@@ -8,7 +8,7 @@
 namespace asperity {
 
 // Whether a calibration can be used, in words for the person who made it. Data that cannot determine the
-// values at all are refused with an Error that says what to record instead.
+// values at all are refused with an Error that states what to record instead.
 struct CalibrationVerdict {
   bool trustworthy = true;  // none of `verdicts` is invalid
   std::string text;         // one or two sentences: what was found, then the verdicts but for notes

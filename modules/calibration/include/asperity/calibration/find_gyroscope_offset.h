@@ -18,9 +18,9 @@ struct GyroscopeOffset {
   std::size_t poses = 0;
 };
 
-// What the gyroscope reads at rest: the mean over `poses` (times as accelerometer_samples_of gives them) of its means
-// in each. The standard error is that of the poses' means over √poses, so that slow drift counts. nullopt without a
-// gyroscope or with fewer than three poses that have rows of it.
+// The gyroscope's reading in static intervals: the mean over `poses` (times as accelerometer_samples_of gives them) of
+// its means in each. The standard error is that of the poses' means over √poses, so that slow drift counts. nullopt
+// without a gyroscope or with fewer than three poses that have rows of it.
 std::optional<GyroscopeOffset> find_gyroscope_offset(const Recording& recording, const std::vector<StaticPose>& poses);
 
 }  // namespace asperity

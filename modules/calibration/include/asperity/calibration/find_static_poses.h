@@ -28,7 +28,7 @@ struct FindStaticPosesConfig {
   }
 };
 
-// A stretch of rest: rows first to last (exclusive).
+// A static interval: rows first to last (exclusive).
 struct StaticPose {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -41,7 +41,7 @@ struct StaticPose {
 struct StaticPoses {
   std::vector<StaticPose> poses;
   double still_counts = 0.0;   // the threshold that was used, on the root of the three variances' sum
-  double noise_counts = 0.0;   // median of the same over the windows at rest
+  double noise_counts = 0.0;   // median of the same over the static windows
   double radius_counts = 0.0;  // the poses' spread: RMS distance of their means from the mean of these
 };
 

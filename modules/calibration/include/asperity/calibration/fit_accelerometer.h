@@ -73,14 +73,14 @@ struct AccelerometerFit {
   CalibrationVerdict verdict;
 };
 
-// The accelerometer's models counts = B φ(f) + C (seed §3.5, errata 5–7) from readings under a specific force f that is
-// known from elsewhere, such as a robot's or a tilting table's orientation:
+// The accelerometer's models counts = B φ(f) + C (thesis §3.5, errata 5–7) from readings under a specific force f that
+// is known from elsewhere, such as a robot's or a tilting table's orientation:
 //   scalar_offset  one factor and offset an axis, φ the marker's axis that fits it best (each axis is used once)
 //   linear         φ = (x, y, z)
 //   quadric        φ = (x, y, z, x², y², z², xy, xz, yz)
 // Rows whose f stays near are one pose, and each pose enters as the means of its counts and of its φ, once: rows within
 // a pose share their error, so that σ_fit·√diag((GᵀG)⁻¹) over all rows would be far too small (erratum 7 presumes
-// independent rows). Poses are taken alike; stretches much shorter than most are turns between poses and left out.
+// independent rows). Poses are taken alike; stretches much shorter than most are rotations between poses and left out.
 // If the residuals of poses next to each other in time are still correlated, neighbours are averaged in twos, fours and
 // so on until they are not, which costs precision and never truth: the model is as linear in φ's means as in φ.
 // Least squares by the SVD of G with its columns scaled to length one; N − k degrees of freedom an axis. Under gravity

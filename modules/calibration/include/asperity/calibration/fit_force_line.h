@@ -51,7 +51,7 @@ struct ForceLineFit {
   CalibrationVerdict verdict;
 };
 
-// The straight line force = newton_per_count·counts + offset_newton by least squares in the force (seed §3.5,
+// The straight line force = newton_per_count·counts + offset_newton by least squares in the force (thesis §3.5,
 // Fig. 11). The residual's standard deviation s has N − 2 degrees of freedom; the standard errors are s/√Sxx and
 // s·√(1/N + x̄²/Sxx). The errors of the counts are neglected: rounding adds newton_per_count/√12 to a residual, and
 // the verdict says so where that is not small beside s. Linearity: Student's t-test of a square term. Outliers:

@@ -7,7 +7,7 @@
 namespace asperity {
 
 // A table `counts,force_N`, one reading a line; other columns are passed over. Throws Error naming file, line and
-// column for what is no finite number, and for more than a million lines.
+// column for a value that is not a finite number, and for more than a million lines.
 ForcePoints read_force_points(const std::filesystem::path& file);
 
 }  // namespace asperity

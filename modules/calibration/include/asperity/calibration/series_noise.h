@@ -6,13 +6,13 @@
 
 namespace asperity {
 
-// The scatter of one quantity at rest: a white part, independent from sample to sample, and a slow part, an
+// The scatter of one quantity in a static interval: a white part, independent from sample to sample, and a drift, an
 // Ornstein–Uhlenbeck process of variance slow² and correlation exp(−|Δt|/time_s). In the quantity's unit.
 struct SeriesNoise {
   std::size_t samples = 0;
   double white = 0.0;
   double white_error = 0.0;  // standard errors
-  bool has_slow = false;     // whether the data show a slow part at all; else the next four are 0
+  bool has_slow = false;     // whether the data show a drift at all; else the next four are 0
   double slow = 0.0;
   double slow_error = 0.0;
   double slow_time_s = 0.0;
@@ -30,7 +30,7 @@ struct SeriesNoise {
 };
 
 // Both parts by restricted maximum likelihood (the mean is free) through a scalar Kalman filter, exact for uneven
-// times; standard errors from the curvature of the likelihood. The slow part is kept where it raises the log-likelihood
+// times; standard errors from the curvature of the likelihood. The drift is kept where it raises the log-likelihood
 // by more than 4.5 (three standard errors). Linear in the number of samples. Throws Error for fewer than eight samples,
 // sizes that differ, times that do not rise, or numbers that are not finite. A constant series has no noise: all zero.
 SeriesNoise fit_series_noise(std::span<const double> t_s, std::span<const double> x);

@@ -16,7 +16,7 @@
 
 namespace asperity {
 
-// The tracker's scatter while the marker body rested in one place.
+// The tracker's scatter while the marker body was stationary.
 struct StaticInterval {
   std::string recording;
   std::int64_t start_ns = 0;
@@ -35,14 +35,14 @@ struct StaticInterval {
 };
 
 struct TrackerNoise {
-  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  // the white part, over all rests
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Zero();  // the white part, over all static intervals
   Eigen::Vector3d sigma_position_error_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_rotation_rad = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_rotation_error_rad = Eigen::Vector3d::Zero();
-  Eigen::Vector3d slow_position_m = Eigen::Vector3d::Zero();  // the slow part, over all rests
+  Eigen::Vector3d slow_position_m = Eigen::Vector3d::Zero();  // the drift, over all static intervals
   Eigen::Vector3d slow_rotation_rad = Eigen::Vector3d::Zero();
   bool gaussian = true;  // no channel refuses it by more than chance, or by little
-  bool moving = false;   // the slow part is larger than the white one
+  bool moving = false;   // the drift is larger than the white part
   std::vector<StaticInterval> rests;
   std::optional<TrackerNoiseModel> model;
   std::string no_model_because;

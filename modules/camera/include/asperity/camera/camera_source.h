@@ -10,7 +10,7 @@
 namespace asperity {
 
 struct CameraFrame {
-  std::int64_t t_ns = 0;  // of its arrival on the host's monotonic clock, by the driver where it says so
+  std::int64_t t_ns = 0;  // of its arrival on the host's monotonic clock, by the driver if it gives one
   GrayImage image;
 };
 

@@ -18,7 +18,7 @@ struct ImageFolderConfig {
 //
 // read() never waits; one image that cannot be read throws Error naming it and is passed over by the next call.
 // Opening throws Error if there is no such folder or no image in it, for more than a million files, and without a
-// rate for names that are no times, for two of the same time, or for times that can't be: closer than 0.1 ms in the
+// rate for names that are not times, for two of the same time, or for times that can't be: closer than 0.1 ms in the
 // median.
 std::unique_ptr<CameraSource> open_image_folder(const std::filesystem::path& folder,
                                                 const ImageFolderConfig& config = {});

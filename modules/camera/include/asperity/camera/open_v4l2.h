@@ -27,13 +27,13 @@ struct V4l2Config {
 
 // A camera of Video4Linux2, such as a webcam at /dev/video0, for this process alone while it is open.
 //
-// Times: the driver's stamp of the buffer where it is of CLOCK_MONOTONIC, as its flags tell, else the time at which
+// Times: the driver's stamp of the buffer where it is of CLOCK_MONOTONIC, by its flags, else the time at which
 // the buffer was taken (and a warning). Exposure, gain, white balance and focus are set to manual; warnings() names
 // each that cannot be locked: poses drift while a camera adapts. Of several frames that wait the oldest is given
 // first; four buffers, so a reader that is late loses frames in the camera.
 //
-// Throws Error if the device cannot be opened, is no camera, is used by another, or has no image of the format and
-// size asked for: the message says what it has. read() throws LinkLost once it is unplugged; frames that the driver
+// Throws Error if the device cannot be opened, is not a camera, is used by another, or has no image of the format and
+// size asked for: the message states what it has. read() throws LinkLost once it is unplugged; frames that the driver
 // marks as damaged are passed over.
 std::unique_ptr<CameraSource> open_v4l2(const std::string& device, const V4l2Config& config = {});
 

@@ -18,7 +18,7 @@ struct CappedScene {
 
 // Brings a scene and its render config within `caps`, before make_render_model():
 //   every stiffness k_s (scene, textures, material maps, config) to at most the stiffness cap;
-//   every compliance k_c so that the texture's spring k_c k_s (seed §6.5 (5)) is within the texture cap, and that the
+//   every compliance k_c so that the texture's spring k_c k_s (thesis §6.5 (5)) is within the texture cap, and that the
 //   whole height H of a texture gives k_c k_s H within the force cap;
 //   the reconstruction cut-off of textures to the bandwidth cap, if one of them may reach beyond it.
 // k_s is here the largest stiffness of the object, wherever it is stated. Throws Error for a texture that cannot be

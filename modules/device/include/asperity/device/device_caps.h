@@ -41,7 +41,7 @@ struct DeviceCaps {
 //   stiffness           the largest that the device states, in proportion if it is served more slowly than it wants; if
 //                       it states none, 2 b r with b = assumed_damping_N_s_per_m: a sampled spring needs the physical
 //                       damping b > k T/2 (Colgate and Brown 1994). Over s
-//   texture stiffness   0.45 N/mm at 1 kHz (Choi and Tan 2004, seed §2.3), in proportion to r as k T/2 is, over s; and
+//   texture stiffness   0.45 N/mm at 1 kHz (Choi, Tan 2004, thesis §2.3), in proportion to r as k T/2 is, over s; and
 //                       the cap on stiffness
 //   texture cycles      f = v · cycles: the device's bandwidth, r/2 at most, at the hand's speed stroke_mps (Campion
 //   and

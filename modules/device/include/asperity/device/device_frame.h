@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// How a device stands in the scene: p_world = scale · R p_device + t. Forces turn with R and are not scaled.
+// The pose of a device in the scene: p_world = scale · R p_device + t. Forces rotate with R and are not scaled.
 struct DeviceFrame {
   Eigen::Quaterniond R_world_device = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();

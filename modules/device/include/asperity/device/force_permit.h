@@ -17,7 +17,7 @@ class ForcePermit {
 
   void renew() noexcept { given_.store(++count_, std::memory_order_relaxed); }
   void revoke() noexcept { given_.store(0, std::memory_order_relaxed); }
-  // Lowers the largest force from now on; a limit above the config's changes nothing, one that is no number is zero.
+  // Lowers the largest force from now on; a limit above the config's changes nothing, one that is not a number is zero.
   void limit(double max_force_N) noexcept {
     max_force_N_.store(max_force_N > 0.0 ? max_force_N : 0.0, std::memory_order_relaxed);
   }

@@ -4,8 +4,8 @@
 
 namespace asperity {
 
-// A hand that holds a stylus, as felt at the tip: masses on springs and dampers whose other ends follow the hand's
-// intention. Along the press direction the hand yields to what it meets, as one does who regulates a force; across
+// A hand that holds a stylus, as seen from the tip: masses on springs and dampers whose other ends follow the hand's
+// intention. Along the press direction the hand yields to the surface, as a hand that regulates a force does; across
 // it, it insists on its path. Defaults and their sources are those of the virtual bench (docs/virtual-bench.md):
 // fingers have 200–800 N/m and 2–6 N s/m (Hajian and Howe, 1997).
 struct HandModelConfig {

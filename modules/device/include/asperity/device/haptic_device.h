@@ -27,12 +27,12 @@ struct DeviceInfo {
 
 enum class DeviceStatus : std::uint8_t {
   kReady,
-  kStalled,  // no news for longer than the device may take; the sequence tells at which reading it stopped
+  kStalled,  // no news for longer than the device may take; the sequence states at which reading it stopped
   kFault,    // gone, or it reports an error; it takes no force any more
   kEnded,    // nothing more will come: a replayed path is at its end, or the device was closed
 };
 
-// What a device says at one tick, in the device's own axes (right x, up y, toward the user z).
+// The state of a device at one tick, in the device's own axes (right x, up y, toward the user z).
 struct DeviceReading {
   Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
@@ -60,7 +60,7 @@ class HapticDevice {
   // Zero force, and no other from now on. Does not throw; may wait.
   virtual void close() noexcept = 0;
 
-  // What went wrong, in words; empty if nothing did. After kFault its cause; a device that goes on may have warnings
+  // What went wrong, in words; empty if nothing did. After kFault its cause; a device that continues may have warnings
   // here (warm motors). Not for the servo thread.
   virtual std::string fault() const = 0;
 

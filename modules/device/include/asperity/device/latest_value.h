@@ -5,7 +5,7 @@
 
 namespace asperity {
 
-// Hands the newest of a series of values from one thread to another: one writer, one reader, no lock, no wait, no
+// Passes the newest of a series of values from one thread to another: one writer, one reader, no lock, no wait, no
 // allocation, never a torn value. Three places: the writer fills its own and exchanges it with the middle one, the
 // reader exchanges its own with the middle one if that is news. T is plain data.
 template <class T>

@@ -52,7 +52,7 @@ SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info);
 
 // The force that may reach the hand at this tick, in this order (docs/safety.md): fault, the force limit, the gain
 // (non-finite numbers, a stale or implausible position, no permit, the end of the run; soft start), the passivity
-// controller's damping, the force limit of the sum, the force-rate limit. Whatever comes in, what goes out is finite,
+// controller's damping, the force limit of the sum, the force-rate limit. For any input, the output is finite,
 // at most max_force_N long, and, unless the device has a fault, at most max_force_rate_N_per_s · dt from the force
 // before, where dt is dt_s but no more than three ticks. A loop that stood still for longer than stale_after_s begins
 // softly again: the hand is elsewhere. Realtime-safe: yes.

@@ -24,7 +24,7 @@ struct AudioSinkConfig {
 
 // A sound card by SDL 2, one channel of float samples. push() puts the force in a ring; the driver's thread makes the
 // samples from it, about 16 servo ticks, `buffer_s` and a block later. Without forces for longer than the ring holds
-// it fades out; it fades in again when they come. The amplitude is limited whatever is pushed.
+// it fades out; it fades in again when they come. The amplitude is limited for any input.
 // The process's handlers of SIGINT and SIGTERM stay as they are.
 // Throws Error: config out of range, no such driver or output, another driver is in use in this process.
 std::unique_ptr<VibrationSink> open_audio_sink(const AudioSinkConfig& config);

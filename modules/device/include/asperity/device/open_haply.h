@@ -15,7 +15,7 @@ struct HaplyConfig {
   double max_rate_Hz = 4000.0;  // messages to the service
   double open_timeout_s = 3.0;
   double force_timeout_s = 0.05;  // a force older than this is not sent again: zero is
-  double late_after_s = 0.01;     // a state this old is no news
+  double late_after_s = 0.01;     // a state this old is not new
   double stall_after_s = 0.02;
   double lost_after_s = 2.0;
   template <class V>

@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-// How the plane of a 2diy stands. Its own x runs from motor 1 to motor 2, its y from the motors to the tip.
+// The orientation of the plane of a 2diy. Its own x runs from motor 1 to motor 2, its y from the motors to the tip.
 enum class TwoDiyPlane {
   kTable,    // flat, the motors away from the user: x right, y toward the user
   kUpright,  // standing, the motors above: x right, y down
@@ -19,7 +19,7 @@ inline constexpr std::array<std::string_view, 2> kTwoDiyPlaneNames{"table", "upr
 struct TwoDiyConfig {
   std::string port;         // "/dev/ttyACM0"; there is no default: other things are serial ports too
   int device_id = 5;        // that the board calls its mechanism
-  bool directions = false;  // the board wants a direction after the motors and encoders (firmware of hAPI 2.2)
+  bool directions = false;  // the board expects a direction after the motors and encoders (firmware of hAPI 2.2)
   TwoDiyPlane plane = TwoDiyPlane::kTable;
   bool mirror_x = false;  // x runs from motor 2 to motor 1
   double proximal_m = 0.05;
@@ -30,7 +30,7 @@ struct TwoDiyConfig {
   double max_torque_N_m = 0.25;                  // of a motor; ours, the maker states none
   double rate_Hz = 1000.0;                       // of questions to the board
   double force_timeout_s = 0.05;
-  double late_after_s = 0.01;  // an answer this old is no news
+  double late_after_s = 0.01;  // an answer this old is not new
   double stall_after_s = 0.02;
   double lost_after_s = 1.0;
   template <class V>

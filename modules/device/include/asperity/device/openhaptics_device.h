@@ -29,7 +29,7 @@ struct OpenHapticsConfig {
 // and clamping, and waits for the first frame. The driver's scheduler calls ours there once a frame; forces and
 // readings pass through a page that both processes see, without a lock. If this program is killed, stopped or silent,
 // that process ends the force; if the driver does not return for 0.1 s, the process is ended, which is a fault. Lost
-// communication is kFault; warm motors and exceeded limits are in fault() while the device goes on. One device a
+// communication is kFault; warm motors and exceeded limits are in fault() while the device continues. One device a
 // process. Throws Error naming the libraries searched for, or the driver's error in words.
 std::unique_ptr<HapticDevice> open_openhaptics(const OpenHapticsConfig& config);
 

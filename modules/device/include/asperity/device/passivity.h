@@ -15,7 +15,7 @@ struct PassivityState {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  // on the hand since the tick before
 };
 
-// What one tick tells it. Vectors in one set of axes, metres of the hand.
+// The input of one tick. Vectors in one set of axes, metres of the hand.
 struct PassivityInput {
   Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d hand_mps = Eigen::Vector3d::Zero();
@@ -33,7 +33,7 @@ struct PassivityInput {
 // the excess D = E + B − S over what the springs store (reference energy, Ryu, Preusche, Hannaford and Hirzinger
 // 2005); B = Σ b |x(k) − x(k−1)|²/dt is what hand and device damp for certain. If D < 0, the damping α = −D/(dt |v|²) ≤
 // max_damping_N_s_per_m takes that energy back within a tick (Hannaford and Ryu 2002). D is kept within −max_debt_J and
-// max_credit_J; what else is forgotten is told in docs/safety.md.
+// max_credit_J; docs/safety.md states what else is forgotten.
 //
 // The caller sets `state.force_N` to the force that it commands at last.
 // Realtime-safe: yes.

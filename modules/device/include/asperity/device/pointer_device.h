@@ -9,8 +9,8 @@
 
 namespace asperity {
 
-// Where a pointer (a mouse, a pen) wants the device point, in the device's axes, in metres. Published by one other
-// thread; again and again also while the pointer rests, for its silence is a stall.
+// The target of a pointer (a mouse, a pen) for the device point, in the device's axes, in metres. Published by one
+// other thread; repeatedly also while the pointer is stationary, because silence is a stall.
 using PointerTargets = LatestValue<Eigen::Vector3d>;
 
 // A pointer that stands for a haptic device: it pulls a small, damped mass by a spring, and the force acts on the mass.
@@ -40,8 +40,8 @@ struct PointerDeviceConfig {
   }
 };
 
-// The device point begins at `start_m`, at rest, and stays there until the first target. With u the newest target, held
-// within `reach_m` of the point p, g the spring's end and f the force written last:
+// The device point begins at `start_m`, stationary, and stays there until the first target. With u the newest target,
+// held within `reach_m` of the point p, g the spring's end and f the force written last:
 //
 //   m p″ + b p′ + k (p − g) = f,    g′ = (u − g) / smoothing_s
 //

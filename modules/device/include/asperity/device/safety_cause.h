@@ -19,7 +19,7 @@ enum class SafetyCause : std::uint32_t {
   kForceLimit = 1U << 6U,    // too large: shortened
   kRateLimit = 1U << 7U,     // changed too fast: follows
   kNotPermitted = 1U << 8U,  // nobody has leave to command forces (force_permit.h): ramp to zero
-  kImplausible = 1U << 9U,   // no hand can be where the device says (reflexes.h): ramp to zero
+  kImplausible = 1U << 9U,   // no hand can be at the stated position (reflexes.h): ramp to zero
 };
 
 inline constexpr std::array<std::string_view, 10> kSafetyCauseNames{

@@ -26,7 +26,7 @@ namespace asperity {
 // What to do about real-time priority.
 enum class RealTimePriority {
   kIgnore,   // run as the process does
-  kTry,      // ask for it; the statistics tell whether it was granted
+  kTry,      // ask for it; the statistics state whether it was granted
   kEnforce,  // Error if it is not granted
 };
 
@@ -69,7 +69,7 @@ struct ServoResult {
   std::vector<ServoTick> last_ticks;  // of the last 2 s, in order: the flight recorder
 };
 
-// A renderer's step: render_step, or what a test puts in its place.
+// A renderer's step: render_step, or a test's replacement.
 using ServoStep = ServoOutput (*)(const RenderModel&, ServoState&, const DeviceState&) noexcept;
 
 // Runs the loop until its end: read, render, make safe, write, once a tick. The calling thread waits; ticks run on a

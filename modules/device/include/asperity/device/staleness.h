@@ -27,7 +27,7 @@ struct Stammer {
 
 // One tick of a device that falls silent again and again, as one whose answers come late: true while its force is to be
 // zero, which is for kStammerHold_s from the last of at least two silences that began within kStammerWindow_s. Without
-// it the force would come back softly after each of them, against a hand that is felt where it was. Realtime-safe: yes.
+// it the force would resume softly after each of them, against the hand's old position. Realtime-safe: yes.
 inline constexpr double kStammerWindow_s = 1.0;
 inline constexpr double kStammerHold_s = 0.25;
 bool is_stammering(Stammer& stammer, bool stale, double dt_s) noexcept;

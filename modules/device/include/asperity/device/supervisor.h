@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// CLOCK_BOOTTIME, ns: unlike host_now_ns() it goes on while the machine is suspended. Realtime-safe: yes.
+// CLOCK_BOOTTIME, ns: unlike host_now_ns() it continues while the machine is suspended. Realtime-safe: yes.
 std::int64_t boot_now_ns() noexcept;
 
 struct SupervisorConfig {

@@ -11,7 +11,7 @@ struct TextureOnDevice {
   double steepest = 0.0;           // largest |∇H|
   double most_curved_per_m = 0.0;  // largest |∂²H|
   // How many times stiffer than the flat wall the loop becomes: a bound of ‖∂force/∂position‖ / k_s (the
-  // characteristic number of Campion and Hayward 2008). 1 for models without a place.
+  // characteristic number of Campion and Hayward 2008). 1 for models without a position.
   double loop_gain = 1.0;
   double highest_stiffness_N_per_m = 0.0;  // the device's over loop_gain (Colgate and Schenkel 1997)
   double most_force_N = 0.0;               // of the texture alone, wholly pressed in

@@ -13,7 +13,7 @@ struct VibrationConfig {
   double volume = 0.5;
   double ceiling = 0.8;    // no sample is ever larger; from half of it on, levels are bent softly
   double fade_s = 0.008;   // in and out
-  double buffer_s = 0.01;  // of forces waiting, besides one block: what the servo may be late
+  double buffer_s = 0.01;  // of forces waiting, in addition to one block: how late the servo may be
   template <class V>
   void visit(V& v) {
     v.field("servo_rate_Hz", servo_rate_Hz, "rate of the pushed forces, Hz", {100.0, 4000.0});

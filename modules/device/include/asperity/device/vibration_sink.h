@@ -19,7 +19,7 @@ class VibrationSink {
   virtual const VibrationInfo& info() const noexcept = 0;
 
   // The force of one servo tick, N, at the rate the sink was opened for. One thread alone; neither allocates, locks,
-  // throws nor waits. A force that is no number is none: the sink fades out as if nothing had come.
+  // throws nor waits. A force that is not a number counts as none: the sink fades out as if nothing had come.
   virtual void push(double force_N) noexcept = 0;
 
   // False once the driver has lost it; it takes nothing any more. The pushing thread alone.

@@ -43,7 +43,7 @@ struct RendererCheckConfig {
 // render_step at `servo_Hz`, without a device and its safety layer, and in contact
 //
 //   the rendered height, that of the texture under the proxy, is held against the profile's height_m,
-//   the rendered normal force beyond the measured one, f·n − F, against k_c k_s H, what seed §6.5 (5) makes of the real
+//   the rendered normal force beyond the measured one, f·n − F, against k_c k_s H (thesis §6.5 (5)) of the real
 //   heights H, their lowest at 0 as a texture's are (erratum 20): the contact force (4) of the press is F by itself,
 //
 // over the scan's arc length in the band of the contract: from low to min(high, 0.4 rate/speed) cycles/mm, second-order

@@ -11,7 +11,7 @@ namespace asperity {
 //   f + P[N₀ σ a·t] = P[(a·n − µ a·t) (m ḧ + c ḣ + k h)],    σ = ḣ / v,    m, c, k ≥ 0
 //
 // by least squares, the third octaves weighted by the inverse of the density that is left over in them (tremor presses
-// too, and is no answer of the hand); f is the reading, P the pole of the force sensor, N₀ the slow normal force,
+// too, and is not a response of the hand); f is the reading, P the pole of the force sensor, N₀ the slow normal force,
 // µ = 0.25 (its part is small), h the tip's height, v its speed along the path (docs/realism.md). Not measured, and
 // what the config assumes, where m is below three of its standard errors.
 HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, double segment_m,

@@ -48,7 +48,7 @@ struct RealismScore {
   HandImpedance hand;
   RenderedContact contact;
   bool stiffness_known = false, friction_known = false;
-  std::string no_places;  // why the rendered surface has no places, in words; empty: it has
+  std::string no_places;  // why the rendered surface has no positions, in words; empty: it has
   std::vector<OtherStroke> others;
   Verdicts verdicts;        // judge_realism.h
   bool trustworthy = true;  // none is invalid

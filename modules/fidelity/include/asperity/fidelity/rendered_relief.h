@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-// A rendered surface along a line: what a contact has that renders k_s (depth + k_c H) (seed §6.5 (4), (5)).
+// A rendered surface along a line: what a contact has that renders k_s (depth + k_c H) (thesis §6.5 (4), (5)).
 struct RenderedRelief {
   std::string name;
   double spacing_m = 0.025e-3;
@@ -22,7 +22,7 @@ struct RenderedRelief {
   bool friction_known = false;
   bool is_own = false;    // it was made from the stroke that it is compared with
   bool is_laid = false;   // over the stroke's own path: point i is point i of its grid
-  std::string no_places;  // why its heights have no places of the surface, in words; empty: they have
+  std::string no_places;  // why its heights have no positions on the surface, in words; empty: they have
 };
 
 // Of a texture over at least `stroke_m` along x, at y = 0. A texture that repeats has `stroke_m` and one period.

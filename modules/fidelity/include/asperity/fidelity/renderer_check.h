@@ -28,7 +28,7 @@ struct SpectrumAgreement {
   std::vector<BandAgreement> bands;
 };
 
-// How a recorded scan and its rendering agree (check_renderer.h). nan where the scan does not allow a figure.
+// How a recorded scan and its rendering agree (check_renderer.h). nan where the scan does not allow a value.
 struct RendererCheck {
   double low_cycles_per_mm = 0.0;  // the band of all comparisons
   double high_cycles_per_mm = 0.0;
@@ -45,7 +45,7 @@ struct RendererCheck {
   double distribution_distance = std::numeric_limits<double>::quiet_NaN();  // of the heights, in real RMS heights
   SpectrumAgreement height;                                                 // m
   SpectrumAgreement force;           // N, along the normal: what the texture adds, against what the real heights would
-  SpectrumAgreement measured_force;  // N: rendered against measured; told, not judged
+  SpectrumAgreement measured_force;  // N: rendered against measured; reported, not judged
 
   double height_score = 0.0;  // each from 0 to 1 (check_renderer.h)
   double force_score = 0.0;

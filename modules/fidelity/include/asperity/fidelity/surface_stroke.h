@@ -29,11 +29,11 @@ struct SurfaceLine {
 // a path along edges of the mesh has their corners on either side of 0 by rounding. Empty if no triangle has a texture.
 SurfaceLine textured_line(const Scene& scene);
 
-// The shortest way over the first object between the points of it nearest to two others. Throws Error as
+// The shortest path over the first object between the points of it nearest to two others. Throws Error as
 // virtual_path (paint.h) does, and for a scene without objects. It may lead round edges.
 SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m);
 
-// Straight on over the first object, along its longest axis, through the place where its shortest axis leaves it:
+// Straight on over the first object, along its longest axis, through the point where its shortest axis leaves it:
 // for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
 // Throws Error for a scene without objects.
 SurfaceLine line_across(const Scene& scene, double length_m);
@@ -72,9 +72,9 @@ struct HandStroke {
   std::int64_t starts_ns = 0;                                        // down and pressing: the stroke begins
 };
 
-// A hand that comes down at the line's start, presses, and goes to and fro along it at even speed for `duration_s` in
-// all; to the end and back once if that is 0. Points are a millisecond apart. Throws Error for a line without
-// length and for more than ten hours.
+// A hand that comes down at the line's start, presses, and moves back and forth along it at even speed for `duration_s`
+// in all; to the end and back once if that is 0. Points are a millisecond apart. Throws Error for a line without length
+// and for more than ten hours.
 HandStroke stroke_along(const SurfaceLine& line, double duration_s, const SurfaceStrokeConfig& config);
 
 }  // namespace asperity

@@ -28,18 +28,18 @@ struct FlatPatch {
   double stretch_min = 1.0;  // singular values of the triangles' maps from the surface
   double stretch_max = 1.0;
   double stretch_rms = 0.0;      // from 1, by area
-  std::size_t flipped = 0;       // triangles turned over: 0
+  std::size_t flipped = 0;       // inverted triangles: 0
   std::size_t without_area = 0;  // triangles of the mesh without area, which no map can keep
   int iterations = 0;
   bool converged = false;
 };
 
 // The plane map of least distortion: it minimises the symmetric Dirichlet energy (Smith and Schaefer 2015), which is
-// infinite for a triangle without area, so that none turns over, and least where lengths are kept. It begins at
-// Tutte's embedding on a circle (Tutte 1963), which has no triangle turned over, and goes on by Newton's method on the
+// infinite for a triangle without area, so that none is inverted, and least where lengths are kept. It begins at
+// Tutte's embedding on a circle (Tutte 1963), which has no inverted triangle, and continues by Newton's method on the
 // energy's Hessian with each triangle's made positive semidefinite by its closed eigensystem (Smith, de Goes and Kim
-// 2019), with a line search that stops before a triangle turns over. docs/geometry.md has the mathematics. Throws Error
-// if the equations cannot be solved: triangles many orders of magnitude smaller than others.
+// 2019), with a line search that stops before a triangle is inverted. docs/geometry.md has the mathematics. Throws
+// Error if the equations cannot be solved: triangles many orders of magnitude smaller than others.
 FlatPatch flatten_patch(const SurfacePatch& patch, const FlattenConfig& config = {});
 
 }  // namespace asperity

@@ -10,7 +10,7 @@
 namespace asperity {
 
 // A shortest path over a surface. It has a point at each end and one wherever it crosses an edge or passes
-// a vertex; the piece from point i to i + 1 is straight and lies in triangle i of the path.
+// a vertex; the piece from point i to i + 1 is straight and in triangle i of the path.
 struct GeodesicPath {
   MeshPath path;
   bool locally_shortest = true;  // false: more detours than the limit were left to straighten

@@ -46,7 +46,7 @@ class MeshBvh {
   MeshBvh& operator=(MeshBvh&&) noexcept;
 
   // The nearest point within `radius_m`, exact to rounding in double; of equally near triangles the one
-  // with the smallest index. Not found if p is not finite or nothing lies within the radius.
+  // with the smallest index. Not found if p is not finite or nothing is within the radius.
   // Thread-safe: yes. Realtime-safe: yes.
   ClosestPoint closest_point(const Eigen::Vector3d& p_m,
                              double radius_m = std::numeric_limits<double>::infinity()) const noexcept;

@@ -11,7 +11,7 @@ struct MeshLimits {
   std::size_t vertices = 50'000'000;
   std::size_t triangles = 50'000'000;
   std::size_t line_bytes = 1 << 20;
-  std::size_t polygon_corners = 4096;  // triangulating takes the square of it
+  std::size_t polygon_corners = 4096;  // the time of triangulating grows with its square
 };
 
 }  // namespace asperity

@@ -10,7 +10,7 @@
 namespace asperity {
 
 // Unit outward normals, one a triangle: (b − a) × (c − a) normalised. Zero for a degenerate triangle, one
-// whose area is within rounding of zero. Indices are trusted; every answer is scale-free.
+// whose area is within rounding of zero. Indices are not checked; every answer is scale-free.
 std::vector<Eigen::Vector3d> facet_normals(const TriangleMesh& mesh);
 
 // Unit normals, one a vertex: the mean of its facets' normals, each weighted by the facet's angle at the

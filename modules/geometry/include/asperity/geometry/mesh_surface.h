@@ -14,7 +14,7 @@
 namespace asperity {
 
 // A mesh with all that is asked of it along a path: its neighbours, its normals and its closest points. Vertices
-// at the same position are one, so that a surface goes on over seams.
+// at the same position are one, so that a surface continues over seams.
 struct MeshSurface {
   // Throws Error as MeshBvh does.
   explicit MeshSurface(const TriangleMesh& triangles);

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// Reads a mesh file as its extension says: .obj (see read_obj), .ply, .stl, .off, .gltf, .glb, in any case of
+// Reads a mesh file by its extension: .obj (see read_obj), .ply, .stl, .off, .gltf, .glb, in any case of
 // letters. Throws Error for another extension and as those readers do; `observer` can stop those of glTF.
 MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 

@@ -9,16 +9,16 @@
 
 namespace asperity {
 
-// Reads a Wavefront OBJ, plain or augmented by haptic coordinates (seed §6.3, Fig. 33, erratum 22):
+// Reads a Wavefront OBJ, plain or augmented by haptic coordinates (thesis §6.3, Fig. 33, erratum 22):
 // after the faces one line a face, in their order, `h INDEX x1 y1 x2 y2 x3 y3` in millimetres.
 // Numbers are kept exactly. Polygons are triangulated (see triangulate_polygon); a file with `h` lines
 // may hold triangles only. An index below zero counts back from what was read so far; what a face
-// names must stand before it.
+// names must be defined before it.
 //
-// Throws Error "file:line: message" for what is not an OBJ: a missing, surplus, misspelt or non-finite
+// Throws Error "file:line: message" for text that is not an OBJ: a missing, surplus, misspelt or non-finite
 // number, an index that is zero or out of range, a face with fewer than three corners or with texture
 // or normal indices at some corners only, misplaced or miscounted `h` lines, UTF-16, no vertices, more
-// than `limits`. What is well-formed but has no place in a MeshFile (points, lines, free-form curves,
+// than `limits`. Well-formed data that a MeshFile cannot hold (points, lines, free-form curves,
 // unknown statements) is counted in `problems`, one entry a kind with the line of the first; so are
 // faces that use a vertex twice, and those whose outline crosses itself: they are kept.
 //

@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-// Reads an STL, binary or ascii: binary if its size is what its triangle count says, whatever it begins
+// Reads an STL, binary or ascii: binary if its size is that of its triangle count, whatever it begins
 // with; ascii if it begins with "solid" and has no zero byte. Corners at the same coordinates become one
 // vertex (-0 is 0), in the order of their first use; triangles without area are kept. The solids of an
 // ascii file are objects. Facet normals follow from the corners and are not kept; those that point

@@ -7,9 +7,9 @@
 
 namespace asperity {
 
-// A path that turns neither left nor right on the surface.
+// A path that bends neither left nor right on the surface.
 struct StraightPath {
-  MeshPath path;  // the start, every crossing of an edge, the end; piece i lies in triangle i
+  MeshPath path;  // the start, every crossing of an edge, the end; piece i is in triangle i
   MeshPoint end;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, in the plane of the end's triangle
   bool whole = true;                                    // false: the surface ended before the length did

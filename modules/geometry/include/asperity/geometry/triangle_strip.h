@@ -19,7 +19,7 @@ struct TriangleStrip {
 
 // The strip along the shortest path over three points on each edge between two points of a mesh, by A*
 // (Hart, Nilsson and Raphael 1968): time and memory grow with the part of the mesh between them. Throws
-// Error if no chain of neighbours connects the two triangles; indices are trusted.
+// Error if no chain of neighbours connects the two triangles; indices are not checked.
 TriangleStrip find_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from,
                          const MeshPoint& to);
 

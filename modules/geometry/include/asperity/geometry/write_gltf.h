@@ -49,7 +49,7 @@ enum class GltfForm { kJson, kBinary };
 // texture, one primitive a material in it; a vertex for every different corner.
 //   POSITION    float32 metres: 24 bits a coordinate, at most 6e-8 of its size. An OBJ keeps doubles.
 //   NORMAL      where all triangles of a primitive have them, unit.
-//   TEXCOORD_0  the mesh's own texture coordinates (v turned over), else a copy of the haptic ones.
+//   TEXCOORD_0  the mesh's own texture coordinates (v inverted), else a copy of the haptic ones.
 //   TEXCOORD_1  the haptic coordinates divided by the texture's size.
 // The material of a haptic primitive has the texture's normal map as normalTexture on TEXCOORD_1. What
 // glTF has no place for is in `extras`: of the primitive, "asperity" {haptic_texture, size_mm}, from which

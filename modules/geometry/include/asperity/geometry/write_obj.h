@@ -8,7 +8,7 @@
 namespace asperity {
 
 // The mesh as a Wavefront OBJ: vertices, texture coordinates, normals, faces with their parts, then one
-// `h` line a face if the mesh has haptic coordinates (seed §6.3, Fig. 33). Every number is the shortest
+// `h` line a face if the mesh has haptic coordinates (thesis §6.3, Fig. 33). Every number is the shortest
 // text that reads back as the same double, so parse_obj(format_obj(m)) has m's numbers bit for bit, and
 // formatting that gives the same bytes. Names in no part, and what `materials` holds beside names, are
 // not in an OBJ: see write_mtl.

@@ -35,7 +35,7 @@ void mirror_poses(PoseStream& pose, std::string_view up);
 // which are axial vectors, mirrored with the other sign.
 void turn_sensor(ImportStreams& streams, const Eigen::Matrix3d& axes);
 
-// The world turned so that `up` points along +z.
+// The world rotated so that `up` points along +z.
 void turn_world(PoseStream& pose, const Eigen::Vector3d& up);
 
 // The mean specific force in the world's axes, m/s²: −g and the mean acceleration, which is small where the hand stays

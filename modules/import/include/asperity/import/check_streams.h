@@ -26,7 +26,7 @@ struct StreamUnits {
 struct StreamChecks {
   std::vector<ImportDoubt> doubts;
   std::vector<std::string> notes;  // what could not be checked, and why
-  double rest_mps2 = 0.0;          // length of the specific force at rest, or of its mean in the world; 0: neither
+  double rest_mps2 = 0.0;          // length of the static specific force, or of its mean in the world; 0: neither
   double rate_ratio = 0.0;         // gyroscope over poses; 0: not determined
   double rate_cosine = 0.0;        // 1: both show the same rotation
   double rate_stretch_s = 0.0;     // over which both were averaged
@@ -34,7 +34,7 @@ struct StreamChecks {
   double scale = 0.0;              // positions over accelerometer; 0: not determined
 };
 
-// Times: the rate of the rows lies between 2 Hz and 20 kHz for poses, 5 Hz and 60 kHz for the sensor, and no stream is
+// Times: the rate of the rows is between 2 Hz and 20 kHz for poses, 5 Hz and 60 kHz for the sensor, and no stream is
 // longer than a day.
 // Specific force: its length in the quietest 0.4 s, where it varies by less than 4 %, is 9.81 m/s² within 3 %; without
 // such a stretch its mean in the world within 10 %. Rotation: both are averaged over 40 ms to 1.28 s (pair_rates.h),
@@ -43,7 +43,7 @@ struct StreamChecks {
 // least, the gyroscope's RMS agrees within 15 %, and the cosine Σ ω_p·ω_g / √(Σω_p² Σω_g²), without the means of both
 // where 0.05 rad/s RMS remain, is above 0.8; both within two standard errors. If not, other orders of the quaternion,
 // the inverse rotation, mirrored axes and the 24 exchanges of axes are tried, and a rotation fitted to the pairs
-// (Kabsch 1976). Poses that scatter by more than 0.1 rad from one to the next are no orientations. Lengths: where the
+// (Kabsch 1976). Poses that scatter by more than 0.1 rad from one to the next are not orientations. Lengths: where the
 // acceleration is above 0.3 m/s² RMS, second differences of the positions over 0.1 s against the twice integrated
 // specific force, regression slope within 0.5 to 2; and speeds below 20 m/s. Poses and sensor must be on one clock.
 // Streams that are empty are not checked.

@@ -58,7 +58,7 @@ std::vector<StatedColumn> parse_columns(std::string_view text, std::string_view 
 // entry and the columns that there are, or those that it could be.
 MappedColumn find_stated_column(const StatedColumn& stated, const DelimitedTable& table);
 
-// The map as --columns takes it, with numbers of columns where names would leave a doubt.
+// The map as --columns takes it, with numbers of columns where names would be ambiguous.
 std::string columns_text(const ColumnMap& map, const DelimitedTable& table);
 
 }  // namespace asperity

@@ -21,7 +21,7 @@ struct DelimitedColumn {
   std::string label() const { return group.empty() ? name : name.empty() ? group : group + " " + name; }
 };
 
-// A table of delimited text, whatever its separator, decimal mark and header.
+// A table of delimited text with any separator, decimal mark and header.
 struct DelimitedTable {
   std::string file;  // what messages call it
   std::uint64_t bytes = 0;

@@ -18,7 +18,7 @@ void guess_columns(const DelimitedTable& table, FileRole role, const std::string
                    ColumnMap& map);
 
 // Gives a unit to each column that has none: by the end of its name ("px_mm"), else by its values: the rate that a time
-// would give, the size of positions and angles, specific force nearest to 1 g. `unit_why` says which.
+// would give, the size of positions and angles, specific force nearest to 1 g. `unit_why` states which.
 void guess_units(const DelimitedTable& table, ColumnMap& map);
 
 }  // namespace asperity

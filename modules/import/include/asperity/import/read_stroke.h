@@ -57,7 +57,7 @@ struct StrokeReading {
 //
 // Throws Error naming the file where one cannot be read, the rate of an axis is below 200 Hz or differs from the first
 // one's by more than a hundredth, an axis, the positions or the force have a gap of more than ten intervals, more than
-// one time in a hundred is there twice (too coarse a clock), the acceleration never changes, and where times do not
+// one time in a hundred occurs twice (too coarse a clock), the acceleration never changes, and where times do not
 // overlap.
 StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping, const StrokeImportConfig& config);
 

@@ -17,7 +17,7 @@ namespace asperity {
 
 class JsonObject;
 
-// A value and where it stands, for reading it with messages that name the file, line, column, path and value:
+// A value and its position, for reading it with messages that name the file, line, column, path and value:
 //   scene.json:12:15: key 'textures[3].file': must be a text, found 7
 class JsonItem {
  public:

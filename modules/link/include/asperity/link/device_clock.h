@@ -23,7 +23,7 @@ struct DeviceClockConfig {
 //
 // The sum is n (α + β p̄), p̄ the mean of the p_i: the line is the edge of the pairs' lower convex hull over p̄ (Moon,
 // Skelly and Towsley, INFOCOM 1999), and where its slope is not allowed, the highest allowed line below the hull. A
-// pair that came late lies above the hull and does not move it; a stretch of late pairs moves it only when it fills
+// pair that came late is above the hull and does not move it; a stretch of late pairs moves it only when it fills
 // half the window. Of each 64th of the window the pair with the least a − p is kept: the line may pass a pair that was
 // left out by at most max_rate_error · window / 64, 0.13 ms, and does so only while the rate is not known.
 //

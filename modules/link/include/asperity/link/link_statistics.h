@@ -18,8 +18,8 @@ struct LinkStatistics {
   std::uint64_t damaged_frames = 0;  // pieces between delimiters that failed their check, or bytes given up as frames
   std::uint64_t late_frames = 0;     // came twice or after a later one; not used
   std::uint64_t foreign_frames = 0;  // sound, but of a type or version that is not known
-  std::uint64_t resyncs = 0;         // times that the frames had to be found anew
-  std::uint64_t restarts = 0;        // times that the probe began to count anew
+  std::uint64_t resyncs = 0;         // times that the frames had to be found again
+  std::uint64_t restarts = 0;        // times that the probe restarted its count
   std::uint64_t overruns = 0;        // times that the probe said that it had dropped samples itself
   bool losses_are_estimated = false;
   ProbeFaults faults;  // as last stated by the probe

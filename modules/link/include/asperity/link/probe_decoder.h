@@ -28,13 +28,13 @@ class ProbeDecoder {
 
   virtual const LinkStatistics& statistics() const = 0;
 
-  // What the probe has said of itself; nullopt until it has, or for a kind that never does.
+  // The probe's description of itself; nullopt until it has, or for a kind that never does.
   virtual std::optional<ProbeDescription> description() const = 0;
 };
 
 std::unique_ptr<ProbeDecoder> make_probe_decoder(ProbeProtocol protocol);
 
-// The bits per second of a serial line to such a probe, where nothing else is said: 115,200 (seed §3.1) and 921,600.
+// The bits per second of a serial line to such a probe, where none is stated: 115,200 (thesis §3.1) and 921,600.
 int default_baud(ProbeProtocol protocol) noexcept;
 
 }  // namespace asperity

@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-// What a probe says of itself, or what is known of its kind. Names are as received: escape them where
+// A probe's description of itself, or that of its kind. Names are as received: escape them where
 // they are printed. Zero: unknown.
 struct ProbeDescription {
   std::string model;     // "what", "open"

@@ -24,7 +24,7 @@ class ProbeLink {
 
   const LinkStatistics& statistics() const { return decoder_->statistics(); }
 
-  // What the probe says of itself, or what is known of its kind.
+  // The probe's description of itself, or that of its kind.
   std::optional<ProbeDescription> description() const;
 
   ProbeProtocol protocol() const { return protocol_; }

@@ -57,7 +57,7 @@ struct LiveCounts {
   std::uint64_t poses = 0;
   std::uint64_t poses_refused = 0;   // out of order, repeated, not finite
   std::uint64_t poses_late = 0;      // older than the estimate reaches back
-  std::uint64_t poses_outlying = 0;  // far from what the probe says
+  std::uint64_t poses_outlying = 0;  // far from the probe's motion
   std::uint64_t restarts = 0;        // of the estimate, after a hole in the data
 };
 

@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-// The surface profile while it is scanned (seed §7.2): the causal counterpart of process_recording.h. Rows and poses
+// The surface profile while it is scanned (thesis §7.2): the causal counterpart of process_recording.h. Rows and poses
 // come in the order in which they arrive, poses later than the rows of their time by the tracker's latency; either may
 // be lost, repeated, out of order or not finite. The motion is that of the batch's filter, smoothed over a fixed lag
 // (docs/live-profile.md), so a point is known at most about 0.2 s after the tip was there, and never changes again.
@@ -33,10 +33,10 @@ class LiveProfile {
   // What is new since the last call.
   LiveEstimate estimate();
 
-  // Begins a new profile: s from 0, a new base. The filter goes on.
+  // Begins a new profile: s from 0, a new base. The filter continues.
   void restart();
 
-  // New settings from here on; profile and base begin anew only if the spacing or the base's shape have changed. Throws
+  // New settings from here on; profile and base restart only if the spacing or the base's shape have changed. Throws
   // as the constructor does, and nothing has changed then.
   void configure(const LiveProfileConfig& config);
 

@@ -65,7 +65,7 @@ class ScanAdvisor {
   // then in the order of HintKind.
   std::vector<Hint> hints(std::int64_t now_ns);
 
-  // The speed below which the texture wanted is resolved, m/s; infinite if nothing limits it.
+  // The speed below which the required texture is resolved, m/s; infinite if nothing limits it.
   double highest_speed_mps() const;
 
   // A new stroke or segment: the direction of travel and the path behind are forgotten.

@@ -42,7 +42,7 @@ struct DrawnText {
   TextAnchor anchor = TextAnchor::kStart;
   double size_px = 13.0;
   bool bold = false;
-  bool upwards = false;  // turned to be read from below to above
+  bool upwards = false;  // rotated, to be read from below to above
   Colour colour{0x33, 0x33, 0x33};
 };
 

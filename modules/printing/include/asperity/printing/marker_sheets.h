@@ -44,7 +44,7 @@ struct RingConfig {
   double face_m = 0.0;  // width and height of a face; 0: the tag with its white margin
 };
 
-// A prism with one tag a face, to be seen from all around (seed §7.2): strips of faces side by side with fold lines
+// A prism with one tag a face, to be seen from all around (thesis §7.2): strips of faces side by side with fold lines
 // (dashed) and a tab for glue, on as few pages as will do, and a polygon to cut out of cardboard twice as its ends. The
 // marker frame is that of face 0's tag: x along the ring to the right, y along its axis, downwards, z inwards; the axis
 // is at z = a = face / (2 tan(π/n)). Face i, θ = 2 π i / n, has

@@ -13,7 +13,7 @@ struct ContactChange {
   std::int64_t t_ns = 0;  // of the first sample of the touch, or of its last
 };
 
-// Whether the probe touches, sample by sample (seed §3.3, "Auto"): it does once the force has stayed above the
+// Whether the probe touches, sample by sample (thesis §3.3, "Auto"): it does once the force has stayed above the
 // upper threshold for `on_hold_s`, and no longer once it has been below the lower one for `off_hold_s`; time above
 // the lower threshold takes four times as much off that again.
 // With a force calibration the thresholds are in newton. Without one they are multiples of the idle level's
@@ -21,7 +21,7 @@ struct ContactChange {
 // touch; the level follows a drift while it does not.
 class ContactDetector {
  public:
-  // Throws Error if a lower threshold lies above its upper one.
+  // Throws Error if a lower threshold is above its upper one.
   ContactDetector(const TouchConfig& config, const std::optional<ForceCalibration>& force);
 
   // The next sample of the force; nan is passed over, and a time that does not rise. What has changed by it.

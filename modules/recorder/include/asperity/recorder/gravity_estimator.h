@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// When the probe counts as at rest.
+// When the probe counts as stationary.
 struct RestConfig {
   double window_s = 0.25;
   double acceleration_mps2 = 0.5;
@@ -34,15 +34,15 @@ struct RestConfig {
 };
 
 struct GravityEstimate {
-  bool measured = false;     // at least one window at rest, and a believable magnitude
+  bool measured = false;     // at least one static window, and a plausible magnitude
   bool implausible = false;  // measured, but not believed
-  std::int64_t windows = 0;  // at rest
+  std::int64_t windows = 0;  // static ones
   Eigen::Vector3d gravity_world_mps2 = Eigen::Vector3d::Zero();
   // Standard deviation of the windows' estimates; nan below two.
   Eigen::Vector3d scatter_mps2 = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
-// Gravity in the world frame from the probe at rest: the accelerometer then reads f = −g in the marker frame
+// Gravity in the world frame from the stationary probe: the accelerometer then reads f = −g in the marker frame
 // (erratum 5), so gravity_world = −R_world_marker f (erratum 4). Judged in windows of `window_s`: at rest are those in
 // which specific force, position and rotation deviate less than the config's limits. The estimate is the mean over the
 // windows, each with its mean f and mean rotation. A calibration error of the accelerometer is in it.

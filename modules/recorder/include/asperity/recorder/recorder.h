@@ -32,7 +32,7 @@ struct RecorderSensors {
   std::function<std::string()> failure_besides = nullptr;
 };
 
-// Records a probe and a tracker (seed §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
+// Records a probe and a tracker (thesis §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
 // disk, and one that writes. Thread-safe but for finish().
 class Recorder {
  public:

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// kSegments: stored from start_segment() to stop_segment(). kAuto: stored while the probe touches (seed §3.3).
+// kSegments: stored from start_segment() to stop_segment(). kAuto: stored while the probe touches (thesis §3.3).
 enum class StoreMode { kSegments, kAuto };
 inline constexpr std::array<std::string_view, 2> kStoreModeNames{"segments", "auto"};
 

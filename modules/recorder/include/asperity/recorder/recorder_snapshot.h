@@ -45,7 +45,7 @@ struct BodySnapshot {
   double pose_age_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-// How a recording under way stands, all of one moment.
+// The state of a running recording, all of one moment.
 struct RecorderSnapshot {
   double running_s = 0.0;
   SensorSnapshot probe;

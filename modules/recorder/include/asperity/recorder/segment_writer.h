@@ -41,7 +41,7 @@ class SegmentWriter {
   // Takes the open segment out of the list, or else the last one, and gives its name; nullopt if there is none.
   // Its rows stay in the files until RecordingAppender::finish.
   std::optional<std::string> discard(std::int64_t t_ns);
-  // Puts what was discarded last back into its place, closed, and gives its name, which is another one if there is one
+  // Restores the segment that was discarded last, closed, and gives its name, which is another one if there is one
   // of that name by now; nullopt if nothing is there to be brought back.
   std::optional<std::string> restore();
 

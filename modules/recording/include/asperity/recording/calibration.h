@@ -16,7 +16,7 @@ namespace asperity {
 
 enum class AccelerometerModel { kScalarOffset, kLinear, kQuadric };
 
-// counts = B φ(f) + C with the specific force f = a − g in the marker frame, m/s² (seed §3.5,
+// counts = B φ(f) + C with the specific force f = a − g in the marker frame, m/s² (thesis §3.5,
 // errata 4–6). φ(f) = f, and for the quadric model (x, y, z, x², y², z², xy, xz, yz).
 struct AccelerometerCalibration {
   AccelerometerModel model = AccelerometerModel::kLinear;
@@ -60,12 +60,12 @@ struct Force3Calibration {
 };
 
 struct TrackerCalibration {
-  Eigen::Vector3d sigma_position_m{0.15e-3, 0.13e-3, 0.54e-3};  // along the world's axes (seed Fig. 9)
+  Eigen::Vector3d sigma_position_m{0.15e-3, 0.13e-3, 0.54e-3};  // along the world's axes (thesis Fig. 9)
   Eigen::Vector3d sigma_rotation_rad{3.5e-3, 3.5e-3, 3.5e-3};
   double latency_s = 0.0;  // the pose's true time is t_ns minus this
   double latency_sigma_s = 0.0;
   std::optional<TrackerNoiseModel> noise_model;  // extra.tracker_noise_model
-  // Slow error beside the white noise, along the world's axes: extra.tracker_slow_sigma_m, and its time constant:
+  // Drift in addition to the white noise, along the world's axes: extra.tracker_slow_sigma_m, and its time constant:
   // extra.tracker_slow_time_s.
   std::optional<Eigen::Vector3d> slow_sigma_m;
   std::optional<double> slow_time_s;

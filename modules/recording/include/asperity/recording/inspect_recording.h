@@ -41,7 +41,7 @@ struct InspectConfig {
   }
 };
 
-// Rates, gaps, losses, saturation, noise at rest, and what looks wrong. The recording must keep the
+// Rates, gaps, losses, saturation, static noise, and suspicious values. The recording must keep the
 // rules of validate_recording, as read_recording returns it. Linear in the number of rows.
 Inspection inspect_recording(const Recording& recording, const InspectConfig& config = {});
 

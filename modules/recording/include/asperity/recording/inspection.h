@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// When the rows of a stream came. Figures of intervals are nan for a single row.
+// When the rows of a stream came. Values of intervals are nan for a single row.
 struct StreamTiming {
   std::size_t count = 0;
   std::int64_t start_ns = 0;
@@ -44,8 +44,8 @@ struct ChannelStatistics {
 struct QuietInterval {
   double start_s = 0.0;  // since the probe's first row
   double duration_s = 0.0;
-  bool at_rest = false;                                           // still enough for the figures below to mean noise
-  Eigen::Vector3d specific_force_mps2 = Eigen::Vector3d::Zero();  // mean, in the marker frame
+  bool at_rest = false;                                               // still enough for the values below to be noise
+  Eigen::Vector3d specific_force_mps2 = Eigen::Vector3d::Zero();      // mean, in the marker frame
   Eigen::Vector3d acceleration_noise_mps2 = Eigen::Vector3d::Zero();  // standard deviation, in the marker frame
   double gravity_mps2 = 0.0;                                          // length of the mean specific force
   // Between the mean specific force, turned into the world, and up; nan without a pose or a known rotation.

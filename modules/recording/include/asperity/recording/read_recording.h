@@ -16,7 +16,7 @@ namespace asperity {
 Recording read_recording(const std::filesystem::path& folder, const ReadLimits& limits = {},
                          const Observer& observer = {});
 
-// The same without the tracker and the truth, which need not be there: what the probe alone felt, in the hand with no
+// The same without the tracker and the truth, which need not be there: the probe's streams alone, in the hand with no
 // camera in sight.
 Recording read_probe_recording(const std::filesystem::path& folder, const ReadLimits& limits = {},
                                const Observer& observer = {});

@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// How the frame of a tag lies on the tag, where there are several habits (docs/tracking.md).
+// The orientation of a tag's frame on the tag, where there are several habits (docs/tracking.md).
 enum class TagFrame {
   kAprilTag,       // x right, y down, z into the tag
   kOpenCv,         // x right, y up, z out of the tag, for a tag upright as OpenCV draws it

@@ -42,7 +42,7 @@ std::vector<Pose> find_poses(std::span<const MeasuredPath> paths, const Registra
                              const SearchConfig& config, const RegistrationObserver& observer = {});
 
 // The registration without a guess: the best of find_poses run to the end. The best of these is the result, the next
-// the runner-up, which decides whether it can be trusted. A motion that the paths do not determine is arbitrary. Throws
+// the runner-up, which decides whether it is valid. A motion that the paths do not determine is arbitrary. Throws
 // as find_poses does.
 RegistrationResult find_registration(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                                      const SearchConfig& config, const RegistrationObserver& observer = {});

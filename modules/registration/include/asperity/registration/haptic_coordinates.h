@@ -43,7 +43,7 @@ struct HapticWarp {
   double stretch_min = 1.0;                // least of their singular values
   double stretch_max = 1.0;                // greatest
   double stretch_rms = 0.0;                // RMS of their deviations from 1, by area
-  std::vector<std::uint32_t> folded;       // triangles whose map turns over
+  std::vector<std::uint32_t> folded;       // triangles whose map is inverted
   std::vector<std::uint32_t> stretched;    // beyond `stretch_limit`
   std::vector<std::uint32_t> overlapping;  // to which two parts of the path are near
   double along_rms_m = 0.0;                // of s − x at the path's own points, x interpolated in their triangles
@@ -60,7 +60,7 @@ struct HapticCoordinates {
   Problems problems;  // "coordinates_fold", "…_stretch", "…_overlap", "…_contested", "path_jumps"
 };
 
-// Haptic texture coordinates of a mesh along registered paths (seed §5.4, B.2; docs/haptic-coordinates.md):
+// Haptic texture coordinates of a mesh along registered paths (thesis §5.4, B.2; docs/haptic-coordinates.md):
 // path i gets texture index i + 1; one without points gets no triangles. Triangles that the path touches, and `rings`
 // rings of triangles that share a vertex with them, get for each corner x, the distance along the path (its s_m,
 // negative before its start), and y, the distance across, positive along path direction × outward normal (erratum 17).

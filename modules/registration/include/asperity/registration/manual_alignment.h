@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// The six numbers of an alignment by hand (seed §5.4, Fig. 23).
+// The six numbers of an alignment by hand (thesis §5.4, Fig. 23).
 struct ManualAlignment {
   std::array<double, 3> shift_m{};       // x, y, z of the world frame's origin in the mesh frame
   std::array<double, 3> rotation_deg{};  // about x, then the rotated y, then the twice rotated z

@@ -9,11 +9,11 @@
 
 namespace asperity {
 
-// How far a registered pose is from the true one, and how far it says it may be.
+// How far a registered pose is from the true one, and its stated uncertainty.
 struct PoseError {
   double rms_m = 0.0;         // of the points' displacement
   double rotation_rad = 0.0;  // angle between the two rotations
-  double sigma_m = 0.0;       // what the covariance says of either: the root of the expected square
+  double sigma_m = 0.0;       // the same by the covariance: the root of the expected square
   double sigma_rad = 0.0;
 };
 

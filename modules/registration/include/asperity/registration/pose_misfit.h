@@ -10,7 +10,7 @@ namespace asperity {
 
 struct PoseMisfitConfig {
   double slow_length_m = 20e-3;   // over which distances are averaged
-  double surface_error_m = 2e-6;  // of the mesh, beside its facets' sag
+  double surface_error_m = 2e-6;  // of the mesh, in addition to its facets' sag
   double guess_sigma_m = 20e-3;
   double guess_sigma_rad = 0.35;
   bool guess_stated = true;
@@ -18,7 +18,7 @@ struct PoseMisfitConfig {
 
 // How far the paths at the pose `result.T_mesh_world` are from the mesh, and what of that is explained. The signed
 // distance d of a point over the mesh is parted into its mean over slow_length_m of path about it and the rest, the
-// relief. The mean can come from the paths' slow errors (their covariance along the normal), the sag of the facets and
+// relief. The mean can come from the paths' drift (their covariance along the normal), the sag of the facets and
 // the error of the mesh, and the relief's own mean, which is known to the relief's RMS (a board's holes lie under its
 // face). Both parts are RMS values over the points that are nearer than four robust standard deviations; points beyond
 // a border of the mesh do not count. With fewer than ten points all is nan. `guess`: the pose that the registration

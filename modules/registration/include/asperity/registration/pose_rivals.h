@@ -16,8 +16,8 @@ struct RivalConfig {
 
 // What speaks against a pose: the other poses of `found` that are not as unlikely as they would have to be, and how
 // well the pose is known within its own valley. `at` is the pose itself, weighed. Another pose that the mesh's own
-// symmetry maps onto this one (find_symmetry.h) is no rival, and a motion along which the mesh maps onto itself leaves
-// nothing open: both are listed as such. `searched`: `found` comes from everywhere on the mesh.
+// symmetry maps onto this one (find_symmetry.h) is not a rival, and a motion along which the mesh maps onto itself
+// leaves nothing open: both are listed as such. `searched`: `found` comes from everywhere on the mesh.
 PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSurface& surface, const WeighedPose& at,
                        std::span<const WeighedPose> found, bool searched, const RivalConfig& config);
 

@@ -55,9 +55,9 @@ struct RefinedRegistration {
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m;  // [path][point]; empty paths if none was estimated
 };
 
-// A registered pose, refined with the paths' slow errors (generalised least squares; docs/registration.md). What
+// A registered pose, refined with the paths' drift (generalised least squares; docs/registration.md). What
 // keeps a scan from its mesh is not white noise: the tracker's error e lasts for centimetres, the relief has its
-// own spectrum. Plain least squares follow the slow error, and their covariance is far too small. Here the height
+// own spectrum. Plain least squares follow the drift, and their covariance is far too small. Here the height
 // over the facet is
 //   d_i = n·(T (p_i + R_i δ − e_i)) − facet = m + relief,
 // δ is what the tip's calibrated position is off by (marker axes, a priori tip_sigma_m, R_i the probe's orientation),

@@ -15,7 +15,7 @@ struct ThesisRegistrationConfig {
   // the distance is least.
   double relative_change = 1e-5;
   int max_iterations = 5000;
-  // The seed has no such step. Resampled at equal distances, the centimetres of path that lead to a flipped pose and
+  // The thesis has no such step. Resampled at equal distances, the centimetres of path that lead to a flipped pose and
   // back have as many points as the scan.
   bool reject_flips = true;
 
@@ -28,7 +28,7 @@ struct ThesisRegistrationConfig {
   }
 };
 
-// The seed's registration (seed §5.4, A.2, B.2, errata 16 and 26): the paths resampled at equal distances, the
+// The thesis's registration (thesis §5.4, A.2, B.2, errata 16 and 26): the paths resampled at equal distances, the
 // closest points on the mesh's triangles, absolute orientation in closed form, repeated until the mean
 // distance changes by less than relative_change of itself (error_change) or max_iterations is reached. It
 // judges neither what is determined nor other solutions. Throws Error for fewer than three points after

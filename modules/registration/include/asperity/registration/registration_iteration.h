@@ -15,10 +15,10 @@ enum class RegistrationPhase {
   kSearch,      // coarse runs from anywhere, where there is no guess
   kAnnealing,   // from the guess with few points, closest points first counting in all directions
   kFit,         // all points, from the best of these
-  kRestarts,    // coarse runs from other places near the guess
+  kRestarts,    // coarse runs from other poses near the guess
   kComparison,  // the best ends of these, with all points
   kGuesses,     // whole registrations from other guesses, for the refinement
-  kRefinement,  // with the tracker's slow error, from each of these
+  kRefinement,  // with the tracker's drift, from each of these
 };
 inline constexpr std::array<std::string_view, 7> kRegistrationPhaseNames{
     "search", "annealing", "fit", "restarts", "comparison", "guesses", "refinement"};

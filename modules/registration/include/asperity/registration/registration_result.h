@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// A scan path as registration wants it, world frame. `outward_world` is empty or holds, for each point, the
+// A scan path as registration expects it, world frame. `outward_world` is empty or holds, for each point, the
 // direction from the surface towards the probe; `sigma_m` is the standard deviation of a point along the
 // surface's normal, 0 if unknown; `slow_covariance_world_m2` that of the part of the positions' error that lasts over
 // many points, zero if unknown. `q_world_marker` is empty or the probe's orientation at each point: with it and
@@ -80,10 +80,9 @@ struct PoseRivals {
   std::optional<RunnerUp> rival;     // the likeliest of these, however unlikely
   std::size_t symmetric_copies = 0;  // poses that the mesh's own symmetry maps onto this one
   bool symmetric_motion = false;     // the mesh maps onto itself along a motion that the paths leave open
-  double sigma_m = std::numeric_limits<double>::quiet_NaN();    // of the points' RMS position, and of the rotation,
-  double sigma_rad = std::numeric_limits<double>::quiet_NaN();  // these motions left out
-  double slow_ratio =
-      std::numeric_limits<double>::quiet_NaN();  // of the slow error that the pose needs to the stated one
+  double sigma_m = std::numeric_limits<double>::quiet_NaN();     // of the points' RMS position, and of the rotation,
+  double sigma_rad = std::numeric_limits<double>::quiet_NaN();   // these motions left out
+  double slow_ratio = std::numeric_limits<double>::quiet_NaN();  // of the drift that the pose needs to the stated drift
   double slow_ratio_sigma = std::numeric_limits<double>::quiet_NaN();  // standard error of its logarithm
   double outlying = std::numeric_limits<double>::quiet_NaN();          // share of the paths that no such error explains
   // That on a mesh of another object the best of the poses would stand out of the others as this one does.
@@ -93,11 +92,11 @@ struct PoseRivals {
   MeshScale scale;
 };
 
-// Where a scan path lies on a mesh.
+// The position of a scan path on a mesh.
 struct RegistrationResult {
   Pose T_mesh_world;
   double rms_m = 0.0;   // root mean square distance of the inliers to the surface
-  double mean_m = 0.0;  // mean distance of all points (the seed's measure, §5.4)
+  double mean_m = 0.0;  // mean distance of all points (the thesis's measure, §5.4)
   std::size_t points = 0;
   std::size_t outliers = 0;
   int iterations = 0;

@@ -15,9 +15,9 @@ namespace asperity {
 
 struct WeighConfig {
   double memory_m = 2e-3;          // least length over which heights are averaged
-  double slow_length_m = 20e-3;    // over which the slow error of a path lasts; 0: each point has its own
+  double slow_length_m = 20e-3;    // over which the drift of a path lasts; 0: each point has its own
   double slow_ratio_spread = 0.5;  // standard deviation of the logarithm of its size over the stated one
-  double relief_mean_ratio = 2.0;  // of the relief's mean to the noise of the averages, besides the relief itself
+  double relief_mean_ratio = 2.0;  // of the relief's mean to the noise of the averages, plus the relief itself
   double guess_sigma_m = 10e-3;
   double guess_sigma_rad = 0.175;
   double guess_lapse = 0.02;  // the probability that a guess is nothing of the kind
@@ -32,7 +32,7 @@ struct WeighedPose {
   double slow_ratio_sigma = 0.0;  // standard error of its logarithm, by the paths alone
   double log_volume = 0.0;        // of the volume of poses that are as likely, rad³ m³ (Laplace)
   double noise_m = 0.0;           // of the averages, the largest of the paths'
-  double outlying = 0.0;          // share of the path that is no such error
+  double outlying = 0.0;          // share of the path that is not such an error
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // of (rotation rad, shift m) about
                                                                                   // the points' mean, mesh frame
 };

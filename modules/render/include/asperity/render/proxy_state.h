@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// A place where the proxy touches.
+// A contact of the proxy.
 struct ProxyTouch {
   std::uint32_t object = 0;
   std::uint32_t triangle = 0;
@@ -26,9 +26,9 @@ struct EasedMaterial {
   std::uint64_t id = 0;      // RenderModel::material_id of the step before
   bool had_contact = false;  // in the step before: `last` is what was rendered
   RenderMaterial last;
-  RenderMaterial from;   // what was felt at the exchange
+  RenderMaterial from;   // the material rendered at the exchange
   double since_s = 0.0;  // time since then
-  double left = 0.0;     // how much of `from` is still felt: 1 at the exchange, 0 at its end and without one
+  double left = 0.0;     // how much of `from` is still rendered: 1 at the exchange, 0 at its end and without one
 };
 
 // The proxy between two steps: where the tip's centre would be if objects were rigid.

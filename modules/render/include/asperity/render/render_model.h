@@ -64,7 +64,7 @@ struct RenderObject {
   std::vector<std::array<std::uint32_t, 3>> bare_material;  // without textures, felt at their borders; empty: the same
 };
 
-// What is felt, immutable while it is.
+// The rendered scene, immutable while it is rendered.
 struct RenderModel {
   std::vector<RenderObject> objects;
   std::vector<RenderTexture> textures;

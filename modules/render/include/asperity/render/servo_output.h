@@ -23,7 +23,7 @@ struct SurfaceContact {
 
 // What a servo step renders, in the scene's world.
 struct ServoOutput {
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     // on the hand: the sum of the three below (seed §6.5 (3))
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     // on the hand: the sum of the three below (thesis §6.5 (3))
   Eigen::Vector3d contact_N = Eigen::Vector3d::Zero();   // (4)
   Eigen::Vector3d texture_N = Eigen::Vector3d::Zero();   // (5)
   Eigen::Vector3d friction_N = Eigen::Vector3d::Zero();  // (6)

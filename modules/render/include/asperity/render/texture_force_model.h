@@ -12,7 +12,7 @@ namespace asperity {
 // models: kForceModelOf<Series>.
 enum class TextureForceModel {
   kAuto,                // kHeight for a height field, a series in its own way
-  kHeight,              // penetration into the height field, along the normal: seed §6.5 (5), errata 19 and 20
+  kHeight,              // penetration into the height field, along the normal: thesis §6.5 (5), errata 19 and 20
   kNormalPerturbation,  // the same along the normal of the height field: Basdogan, Ho and Srinivasan 1997
   kLateralGradient,     // against the slope, within the surface: Minsky 1995
 };

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// A profile beside the sine that was scanned. Figures that it is too short for are nan.
+// A profile compared with the sine that was scanned. Values for which it is too short are nan.
 struct GratingMetrics {
   double pitch_m = std::numeric_limits<double>::quiet_NaN();
   double pitch_stderr_m = std::numeric_limits<double>::quiet_NaN();

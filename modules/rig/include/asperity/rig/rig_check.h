@@ -25,12 +25,12 @@ struct RigStroke {
   double accel_bias_mps2 = std::numeric_limits<double>::quiet_NaN();
   double tracker_noise_ratio = std::numeric_limits<double>::quiet_NaN();  // found over calibrated
   double outlying_share = std::numeric_limits<double>::quiet_NaN();       // of the poses
-  double gravity_share = std::numeric_limits<double>::quiet_NaN();  // at rest, the accelerometer's reading over gravity
-  double gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();  // at rest, of its up to the world's
+  double gravity_share = std::numeric_limits<double>::quiet_NaN();  // static: the accelerometer's reading over gravity
+  double gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();  // static: of its up to the world's
   Inspection inspection;
 };
 
-// A figure over the strokes that have it.
+// A value over the strokes that have it.
 struct RepeatedMeasurement {
   std::size_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +41,7 @@ struct RepeatedMeasurement {
 struct RigCheck {
   std::vector<RigStroke> strokes;
   RepeatedMeasurement pitch_m, depth_m, Rq_m, shape_rms_m, along_rms_m, correlation, latency_s;
-  RepeatedMeasurement gravity_share, gravity_angle_rad;  // at rest: length over gravity, angle to up
+  RepeatedMeasurement gravity_share, gravity_angle_rad;  // static: length over gravity, angle to up
   RepeatedMeasurement tracker_noise_ratio, outlying_share, lost_share;
   double median_gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();
   double median_noise_ratio = std::numeric_limits<double>::quiet_NaN();

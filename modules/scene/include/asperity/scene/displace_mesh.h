@@ -20,7 +20,7 @@ struct DisplaceMeshConfig {
 // move out along the normal (angle-weighted, interpolated) by the texture's height, its lowest point on the surface
 // (erratum 20). Towards triangles without texture the relief fades to nothing over the outermost textured ones, and
 // where coordinates of two triangles disagree it takes their mean: no gap opens, a closed mesh stays closed. In the
-// mesh's own unit. Textures that are no heights are left flat. Throws Error for more than 20 million triangles.
+// mesh's own unit. Textures that are not heights are left flat. Throws Error for more than 20 million triangles.
 MeshFile displace_mesh(const SceneObject& object, const DisplaceMeshConfig& config = {});
 
 }  // namespace asperity

@@ -29,11 +29,11 @@ struct HeightMapViewerConfig {
 
 inline constexpr std::size_t kMostViewerTiles = 256;
 
-// The haptic texture viewer (seed §6.5, Fig. 38): square tiles on a plane, laid row by row from the upper left as seen
-// from above (z up, y towards the top row), each with its texture over all of the tile, along x as the image's rows and
-// with the image's first row on top. The plane is one mesh in metres, its lower left corner at the origin, its haptic
-// coordinates in mm; texture k has index k + 1. To be rendered with TextureForceModel::kNormalPerturbation (Basdogan).
-// Throws Error for no tile or more than kMostViewerTiles, and for a config out of range.
+// The haptic texture viewer (thesis §6.5, Fig. 38): square tiles on a plane, laid row by row from the upper left as
+// seen from above (z up, y towards the top row), each with its texture over all of the tile, along x as the image's
+// rows and with the image's first row on top. The plane is one mesh in metres, its lower left corner at the origin, its
+// haptic coordinates in mm; texture k has index k + 1. To be rendered with TextureForceModel::kNormalPerturbation
+// (Basdogan). Throws Error for no tile or more than kMostViewerTiles, and for a config out of range.
 Scene make_height_map_viewer(std::span<const Texture> tiles, const HeightMapViewerConfig& config = {});
 
 // The ends of a stroke over the viewer's tiles, on its plane in metres: over the middles of the first row from left to

@@ -13,9 +13,9 @@
 
 namespace asperity {
 
-// How a place yields and rubs. nan: not known there.
+// Compliance and friction at a position. nan: not known there.
 struct Material {
-  double compliance_kc = std::numeric_limits<double>::quiet_NaN();  // k_c, within 0 and 1 (seed §5.3)
+  double compliance_kc = std::numeric_limits<double>::quiet_NaN();  // k_c, within 0 and 1 (thesis §5.3)
   double stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();
   double friction = std::numeric_limits<double>::quiet_NaN();               // coefficient of sliding
   double static_friction_ratio = std::numeric_limits<double>::quiet_NaN();  // coefficient of sticking over it, from 1

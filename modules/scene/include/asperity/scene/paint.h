@@ -43,7 +43,7 @@ struct PaintResult {
 // finite, picks that fall together, and parts of the mesh that nothing connects.
 VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Eigen::Vector3d> picks_mesh_m);
 
-// Paints a texture onto a mesh along a virtual scan path (seed §5.4: "artists may specify a virtual scanning
+// Paints a texture onto a mesh along a virtual scan path (thesis §5.4: "artists may specify a virtual scanning
 // trajectory over the surface of an arbitrary 3D object"): x along it, y across it, in millimetres of the surface,
 // so that the texture keeps its scale. `picks_mesh_m` are in metres in the mesh's frame. The triangles near the path
 // get the index of `texture`, which is added to the object's textures or replaces the one of that index; triangles

@@ -14,8 +14,8 @@ namespace asperity {
 // given twice or below 0, or a name that leads out of the scene's folder, by a link too; for a mesh or texture
 // that cannot be read; and for files that take more than
 // `limit_bytes` together, images as they are in memory. Coordinates whose texture the scene does not list are
-// a Problem: their triangles are felt untextured. Throws Cancelled between files and while JSON is read if `observer`
-// says so.
+// a Problem: their triangles are rendered untextured. Throws Cancelled between files and while JSON is read if
+// `observer` says so.
 Scene read_scene(const std::filesystem::path& path, const Observer& observer = {},
                  std::uint64_t limit_bytes = std::uint64_t{4} << 30);
 

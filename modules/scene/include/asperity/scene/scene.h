@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-// A texture by the number that the mesh's `h` lines have for it (seed §6.3, erratum 22).
+// A texture by the number that the mesh's `h` lines have for it (thesis §6.3, erratum 22).
 struct SceneTexture {
   int index = 1;
   std::string file;  // *.texture.json, a name in the scene's folder or below
@@ -36,7 +36,7 @@ struct SceneObject {
   std::vector<CoveredTriangle> covered;
   std::string material_file;  // empty: no map
   MaterialMap material;
-  Pose T_world_mesh;  // where it stands among the other objects
+  Pose T_world_mesh;  // its pose among the other objects
 
   const SceneTexture* find_texture(int index) const {
     for (const SceneTexture& texture : textures) {
@@ -46,7 +46,7 @@ struct SceneObject {
   }
 };
 
-// What is felt: the content of a *.scene.json and of all files that it names. There is at least one object.
+// The rendered scene: the content of a *.scene.json and of all files that it names. There is at least one object.
 struct Scene {
   std::vector<SceneObject> objects;
   std::optional<double> stiffness_N_per_m;  // where neither map nor texture knows better

@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// Lays another texture in the place of that with `index` in the first object (seed §5.4: "a texture may be
+// Lays another texture in the place of that with `index` in the first object (thesis §5.4: "a texture may be
 // transferred from one object to another"). Mesh and coordinates stay as they are: coordinates are lengths on the
 // surface, so the texture keeps its own scale and spectrum. An index that only the mesh knows is given its
 // texture. Throws Error for an index that neither the scene nor the mesh has.

@@ -21,7 +21,7 @@ struct SceneFile {
 // A texture's file and those that it names (texture_file.h), these first.
 std::vector<SceneFile> format_texture_in_scene(const SceneTexture& texture);
 
-// A mesh as augmented OBJ (seed §6.3), its materials in one library beside it, this first.
+// A mesh as augmented OBJ (thesis §6.3), its materials in one library beside it, this first.
 std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshFile& mesh);
 
 // All files of a scene: textures, material maps and meshes,

@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-// A scan that is no part of an area, and why.
+// A scan that is not part of an area, and why.
 struct LeftOutScan {
   std::string name, reason;
 };

@@ -21,7 +21,7 @@ void append_feel_row(std::string& out, const ServoTick& tick);
 // The log of a run, written as a whole by rename: without commit() nothing remains.
 class FeelLog {
  public:
-  // With `timing` a last column step_ns. Throws Error if the file cannot be written, or exists and is no such log.
+  // With `timing` a last column step_ns. Throws Error if the file cannot be written, or exists and is not such a log.
   FeelLog(const std::filesystem::path& file, bool timing);
   void add(const ServoTick& tick);
   void commit();

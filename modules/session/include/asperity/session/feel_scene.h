@@ -16,7 +16,7 @@
 
 namespace asperity {
 
-// What is to be felt: a scene or images.
+// The input to be rendered: a scene or images.
 struct SceneInput {
   std::string scene;                     // scene.json, its folder, or a mesh
   std::optional<double> mesh_unit_m;     // length of a mesh's unit; none: as the file says, or 1 m
@@ -26,7 +26,7 @@ struct SceneInput {
   std::optional<std::array<Eigen::Vector3d, 2>> tile_stroke_m;  // across the first row of tiles
 };
 
-// Reads it. Images become tiles of a plane (seed Fig. 38), rendered by Basdogan's model unless the settings name
+// Reads it. Images become tiles of a plane (thesis Fig. 38), rendered by Basdogan's model unless the settings name
 // another. Throws Error naming the file, and WrongUnit (mesh_unit.h).
 Scene read_scene_input(SceneInput& input, FeelSettings& settings, const Observer& observer = {});
 

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// Tells by a file's first bytes, some thousand at most, whether a command has written it.
+// Detects by a file's first bytes, some thousand at most, whether a command has written it.
 using IsOurs = std::function<bool(std::string_view begin)>;
 
 // Throws Error if writing `file` would lose what is somebody else's: it exists as a link, a folder, a device or a pipe,

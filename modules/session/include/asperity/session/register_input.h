@@ -42,7 +42,7 @@ MeshFile read_register_mesh(const std::filesystem::path& file, const Observer& o
 // Whether a mesh is that of a scene: the same vertices and triangles.
 bool is_same_mesh(const MeshFile& a, const MeshFile& b);
 
-// register_scans, with what is doubtful about the mesh among the problems.
+// register_scans, with quality warnings about the mesh among the problems.
 ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>& guess, const RegisterConfig& config,
                            const RegistrationObserver& observer = {});
 

@@ -21,7 +21,7 @@ std::vector<double> interpolate(std::span<const double> t, std::span<const doubl
 
 // The mean of the linear interpolation over [at - width/2, at + width/2], as far as the samples reach: what
 // lies above half of the new rate is averaged instead of folded into it, and the integral is kept. x must
-// be finite. Throws Error as above, or if the width is not positive or an interval lies outside the samples.
+// be finite. Throws Error as above, or if the width is not positive or an interval is outside the samples.
 std::vector<double> interval_means(std::span<const double> t, std::span<const double> x, std::span<const double> at,
                                    double width);
 

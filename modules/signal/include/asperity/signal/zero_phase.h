@@ -15,7 +15,7 @@ namespace asperity {
 std::vector<double> zero_phase_filter(std::span<const double> x, std::span<const Biquad> sections);
 
 // Zero-phase Butterworth filters whose gain at `cutoff` is -3 dB for the WHOLE forward-backward filter:
-// each pass is designed at a corner moved by zero_phase_corner_ratio (seed §5.2, errata 12 and 13).
+// each pass is designed at a corner moved by zero_phase_corner_ratio (thesis §5.2, errata 12 and 13).
 // `cutoff` and `rate` share one unit. Throw Error as butterworth.h and zero_phase_filter do.
 std::vector<double> zero_phase_highpass(std::span<const double> x, double cutoff, double rate, int order = 2);
 std::vector<double> zero_phase_lowpass(std::span<const double> x, double cutoff, double rate, int order = 2);

@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// The base shape under the relief: a plane, or a cylinder whose axis lies across the stroke. The object's surface
+// The base shape under the relief: a plane, or a cylinder whose axis is across the stroke. The object's surface
 // is the base itself.
 class SimulatedShape final : public ScanBase {
  public:
@@ -22,7 +22,7 @@ class SimulatedShape final : public ScanBase {
   Eigen::Quaterniond turn(double a_m) const override;
   Ground ground(double, double) const override { return {}; }
 
-  // The turn of the normal about across(), rad, from the middle to `a`.
+  // The rotation of the normal about across(), rad, from the middle to `a`.
   double turn_rad(double a_m) const { return curvature_per_m_ * a_m; }
 
  private:

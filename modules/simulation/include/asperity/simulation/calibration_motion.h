@@ -11,7 +11,7 @@ namespace asperity {
 // Motions by which a probe is calibrated. `tip_in_marker_m` is the true one; all are smooth and deterministic from
 // `seed`.
 
-// At rest in front of the camera.
+// Stationary in front of the camera.
 MotionFunction static_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m);
 
 struct PivotMotion {
@@ -37,12 +37,12 @@ struct ShakeMotion {
 };
 MotionFunction shake_motion(const ShakeMotion& shake, const Eigen::Vector3d& tip_in_marker_m);
 
-// Held at rest in one orientation after another, turned smoothly between.
+// Held stationary in one orientation after another, rotated smoothly between.
 struct StaticPosesMotion {
   int poses = 30;
   double hold_s = 0.8;
   double move_s = 0.7;
-  // Greatest turn away from the mean orientation; π: any orientation there is.
+  // Greatest rotation away from the mean orientation; π: any orientation there is.
   double greatest_turn_rad = 3.141592653589793;
   Pose T_world_marker{Eigen::Quaterniond::Identity(), {0.0, -0.02, 0.36}};
   std::uint64_t seed = 1;
@@ -51,8 +51,8 @@ struct StaticPosesMotion {
 };
 MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::Vector3d& tip_in_marker_m);
 
-// The specific force of a probe at rest, −g in the marker frame, at times `t_ns` of a recording of the bench: what a
-// tilting table or a robot that holds the probe knows (seed §3.5, Freedom 6S; erratum 5).
+// The specific force of a stationary probe, −g in the marker frame, at times `t_ns` of a recording of the bench: what a
+// tilting table or a robot that holds the probe knows (thesis §3.5, Freedom 6S; erratum 5).
 std::vector<Eigen::Vector3d> static_specific_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns);
 
 }  // namespace asperity

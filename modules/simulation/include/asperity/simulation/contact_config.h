@@ -8,9 +8,9 @@ namespace asperity {
 enum class ContactMaterial { kStiff, kCork, kSoftRubber };
 inline constexpr std::array<std::string_view, 3> kContactMaterialNames = {"stiff", "cork", "soft_rubber"};
 
-// The contact between tip and object. Sources of the figures: docs/virtual-bench.md.
+// The contact between tip and object. Sources of the values: docs/virtual-bench.md.
 struct SimulatedContactConfig {
-  double tip_radius_m = 0.32e-3;     // seed §3.1: diameter 0.64 mm near the tip
+  double tip_radius_m = 0.32e-3;     // thesis §3.1: diameter 0.64 mm near the tip
   double stiffness_N_per_m = 2.0e5;  // Hertz, E* = 2 GPa, linearised at 1 N
   double damping_ratio = 0.15;       // of the hand's mass on this stiffness
   double friction_static = 0.22;

@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// What the hand wants at one instant.
+// The hand's target at one instant.
 struct HandState {
   double t_s = 0.0;
   double s_m = 0.0;                                        // where along the path

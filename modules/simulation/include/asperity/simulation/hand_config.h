@@ -20,7 +20,7 @@ struct HandConfig {
   double speed_variation = 0.12;  // relative
   double speed_ramp_s = 0.25;     // to start and to stop
   double rest_s = 0.5;            // before and after
-  int pauses = 0;                 // rests on the way, evenly spread over the path
+  int pauses = 0;                 // static intervals in the stroke, evenly spread over the path
   double pause_s = 1.0;
   double curve_sagitta_m = 8e-3;  // curved
   int strokes = 3;                // back and forth

@@ -13,7 +13,7 @@ namespace asperity {
 enum class TagBody { kFront, kRing };
 inline constexpr std::array<std::string_view, 2> kTagBodyNames = {"front", "ring"};
 
-// The bench as hardware: what stands between a simulated scan and the bytes and images that leave it.
+// The bench as hardware: the links between a simulated scan and the bytes and images that leave it.
 struct LiveBenchConfig {
   SimulatedCameraConfig camera;
   TagBody body = TagBody::kFront;

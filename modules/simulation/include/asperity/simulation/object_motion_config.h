@@ -5,7 +5,7 @@
 
 namespace asperity {
 
-// How the object moves under the scan: not at all, held in the other hand, or turned in it as well.
+// How the object moves under the scan: not at all, held in the other hand, or rotated in it as well.
 enum class SimulatedObjectMotion { kNone, kHeld, kTurned };
 inline constexpr std::array<std::string_view, 3> kSimulatedObjectMotionNames = {"none", "held", "turned"};
 

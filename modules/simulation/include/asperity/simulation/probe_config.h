@@ -9,7 +9,7 @@ namespace asperity {
 enum class ProbeModel { kWhat, kOpen };
 inline constexpr std::array<std::string_view, 2> kProbeModelNames = {"what", "open"};
 
-// The probe's sensors and its link. Sources of the figures: docs/virtual-bench.md.
+// The probe's sensors and its link. Sources of the values: docs/virtual-bench.md.
 struct SimulatedProbeConfig {
   ProbeModel model = ProbeModel::kOpen;
   std::array<double, 3> tip_in_marker_m{0.0, 0.10, 0.010};
@@ -31,7 +31,7 @@ struct SimulatedProbeConfig {
   double force_noise_N = 0.005;
   double force_bandwidth_Hz = 100.0;
 
-  bool force3 = false;            // a force sensor of three axes beside the axial one
+  bool force3 = false;            // a force sensor of three axes in addition to the axial one
   double force3_noise_N = 0.005;  // each axis
 
   // What changes slowly; see docs/virtual-bench.md.
@@ -41,7 +41,7 @@ struct SimulatedProbeConfig {
   double warming_s = 10.0;
 
   double clock_drift_ppm = 0.0;  // the crystal's error: samples are taken so much faster
-  double clock_wander_s = 0.0;   // slow error of the stamps, standard deviation
+  double clock_wander_s = 0.0;   // drift of the stamps, standard deviation
   double clock_wander_time_s = 2.0;
   int batch_samples = 1;          // that arrive at the host together
   double batch_delay_s = 0.2e-3;  // mean of the exponential wait of a batch; the mean itself is part of the latency

@@ -23,7 +23,7 @@ class ProbeDevice {
  public:
   virtual ~ProbeDevice() = default;
 
-  // Lets time go on to `t_ns` on the recording's clock, and appends what the probe sends by then to `out`. At most 64
+  // Advances the time to `t_ns` on the recording's clock, and appends what the probe sends by then to `out`. At most 64
   // ms at once, or the firmware's queue is too short. Time does not go back.
   virtual void advance(std::int64_t t_ns, std::vector<std::uint8_t>& out) = 0;
 

@@ -48,7 +48,7 @@ class ProbeMotion {
 
  private:
   void advance(const HandState& hand);
-  // The object under a tip that stands off the path, less that on the path, which is in the profile.
+  // The object under a tip that is off the path, less that on the path, which is in the profile.
   double ground_aside_m(const ScanPoint& on_path, double a_m, double v_m);
 
   SimulationConfig config_;

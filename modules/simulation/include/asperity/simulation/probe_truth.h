@@ -12,7 +12,7 @@ namespace asperity {
 
 // What a probe's sensors truly do: counts = B f + C and so on, as in calibration.h. The stated
 // calibration of a recording differs from it by the errors of its making.
-// The model `what` has the seed's printed B and C (§3.5; B taken as counts per g, erratum 5) and the force
+// The model `what` has the thesis's printed B and C (§3.5; B taken as counts per g, erratum 5) and the force
 // line of Fig. 11; `open` has even scales with small misalignments and offsets drawn from `seed`.
 Calibration make_probe_truth(const SimulatedProbeConfig& probe, const SimulatedTrackerConfig& tracker,
                              std::uint64_t seed);

@@ -30,7 +30,7 @@ std::vector<Eigen::Vector3d> board_corners_m(const SimulatedBoard& board);
 // The middle of the board.
 Eigen::Vector3d board_centre_m(const SimulatedBoard& board);
 
-// The camera's view of a board at rest: as render_tags.h.
+// The camera's view of a stationary board: as render_tags.h.
 class BoardRenderer {
  public:
   // Throws Error for a board without corners or with more than 60 squares along a side, or more markers than there are.

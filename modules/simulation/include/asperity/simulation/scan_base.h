@@ -23,7 +23,7 @@ class ScanBase {
   virtual Eigen::Vector3d along(double a_m) const = 0;   // unit, the direction in which a grows
   virtual Eigen::Vector3d across(double a_m) const = 0;  // unit, in which v grows: normal × along
 
-  // The turn of the hand that follows the normal to `a`.
+  // The rotation of the hand that follows the normal to `a`.
   virtual Eigen::Quaterniond turn(double a_m) const = 0;
 
   virtual Ground ground(double a_m, double v_m) const = 0;

@@ -16,7 +16,7 @@ struct ScanPoint {
 };
 
 // The path that the hand means to follow on the base shape, by its own arc length: straight, an arc, or
-// strokes to and fro joined by smooth turns, with a slow random deviation. It goes on straight
+// strokes back and forth joined by smooth bends, with a slow random deviation. It continues straight
 // beyond both ends. This arc length is the truth's `s_m` (erratum 23).
 class ScanPath {
  public:

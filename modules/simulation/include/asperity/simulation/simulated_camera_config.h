@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// The camera that looks at the probe, its lens and its sensor. Sources of the figures: docs/live-bench.md. Brightness
+// The camera that looks at the probe, its lens and its sensor. Sources of the values: docs/live-bench.md. Brightness
 // is in counts of the 8-bit image, 0 to 255.
 struct SimulatedCameraConfig {
   std::int64_t seed = 1;  // of the background and the noise

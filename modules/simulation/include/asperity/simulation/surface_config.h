@@ -18,7 +18,7 @@ struct SimulatedSurfaceConfig {
   double pitch_m = 2.0e-3;      // sine, protoboard, cable tie: period along the stroke
   double amplitude_m = 0.1e-3;  // sine: half of the height from valley to peak
 
-  double hole_depth_m = 1.5e-3;             // protoboard (seed §6.2)
+  double hole_depth_m = 1.5e-3;             // protoboard (thesis §6.2)
   double hole_diameter_m = 0.7e-3;          // protoboard: at the hole's floor
   double hole_opening_diameter_m = 2.1e-3;  // protoboard: at the board's face
 
@@ -65,14 +65,14 @@ struct SimulatedSurfaceConfig {
 enum class BaseShapeKind { kPlane, kCylinder, kMesh };
 inline constexpr std::array<std::string_view, 3> kSimulatedShapeNames = {"plane", "cylinder", "mesh"};
 
-// Where a mesh stands: its path's middle in the place of a plane's, or by a given pose.
+// The pose of a mesh: its path's middle at that of a plane's, or a given pose.
 enum class MeshPose { kInPlace, kGiven };
 inline constexpr std::array<std::string_view, 2> kMeshPoseNames = {"in_place", "given"};
 
 // The base shape in the world frame (camera: x right, y down, z forward) and where it is.
 struct SimulatedShapeConfig {
   BaseShapeKind kind = BaseShapeKind::kPlane;
-  double cylinder_radius_m = 0.06;                        // its axis lies across the stroke
+  double cylinder_radius_m = 0.06;                        // its axis is across the stroke
   std::array<double, 3> centre_m{0.0, 0.06, 0.35};        // the middle of the stroke
   std::array<double, 3> normal{0.0, -0.9397, -0.3420};    // outward: up and 20 degrees towards the camera
   std::array<double, 3> stroke_direction{1.0, 0.0, 0.0};  // made perpendicular to the normal

@@ -13,7 +13,7 @@ namespace asperity {
 // 46 mm and a gap of 6 mm the marker of the seed, 46 mm × 98 mm (Fig. 6). Ids `first_id` (upper) and the next.
 std::vector<MarkerPlacement> front_tag_body(double size_m = 0.046, double gap_m = 0.006, int first_id = 0);
 
-// Six tags on a hexagonal prism about the marker's y axis, readable from all sides (seed §7.2). The first faces the
+// Six tags on a hexagonal prism about the marker's y axis, readable from all sides (thesis §7.2). The first faces the
 // camera when the marker frame equals the camera's; the marker's origin is on the axis. The faces are 1.25 times as
 // wide as the tags: the white margin of one cell.
 std::vector<MarkerPlacement> ring_tag_body(double size_m = 0.030, int first_id = 0);

@@ -4,21 +4,21 @@
 
 namespace asperity {
 
-// The optical tracker. Noise figures hold at `reference_distance_m` with the marker facing the camera.
+// The optical tracker. Noise values hold at `reference_distance_m` with the marker facing the camera.
 struct SimulatedTrackerConfig {
   double rate_Hz = 120.0;
   double latency_s = 0.012;
   double clock_jitter_s = 0.1e-3;
   double clock_step_s = 0.0;                                 // resolution of time stamps; 0: 1 ns
-  double reference_distance_m = 0.28;                        // seed Fig. 9
-  std::array<double, 3> noise_m{0.15e-3, 0.13e-3, 0.54e-3};  // right, down, along the ray (seed Fig. 9)
+  double reference_distance_m = 0.28;                        // thesis Fig. 9
+  std::array<double, 3> noise_m{0.15e-3, 0.13e-3, 0.54e-3};  // right, down, along the ray (thesis Fig. 9)
   std::array<double, 3> noise_rad{4.4e-3, 4.4e-3, 1.5e-3};   // about the ray's right, down and itself
-  double slow_share = 0.0;   // a slow error of each axis, as a share of the frame's own noise
+  double slow_share = 0.0;   // a drift of each axis, as a share of the frame's own noise
   double slow_time_s = 1.0;  // its correlation time
   double mount_Hz = 0.0;     // the marker's resonance on the probe; 0: rigid
   double mount_damping_ratio = 0.05;
   double mount_length_m = 0.03;  // over which the mount bends
-  double clock_wander_s = 0.0;   // slow error of the stamps, standard deviation
+  double clock_wander_s = 0.0;   // drift of the stamps, standard deviation
   double clock_wander_time_s = 2.0;
   double dropout_chance = 0.003;  // that a run of lost frames begins
   double dropout_frames = 3.0;    // its mean length

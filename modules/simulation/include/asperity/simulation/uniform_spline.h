@@ -10,7 +10,7 @@
 namespace asperity {
 
 // A uniform cubic B-spline, twice continuously differentiable, with `nodes` as control points `spacing` apart
-// from `first`. Beyond the ends it goes on straight. At least two nodes.
+// from `first`. Beyond the ends it continues straight. At least two nodes.
 template <int N>
 class UniformSpline {
  public:

@@ -46,7 +46,7 @@ class StaircaseTrack {
   double level() const { return level_; }
   bool done() const;
 
-  // Takes the answer to a trial at level(). True if it is a reversal: a trial after which the level turns.
+  // Takes the answer to a trial at level(). True if it is a reversal: a trial after which the level changes direction.
   bool push(bool correct);
 
   const std::vector<double>& levels() const { return levels_; }                   // of all trials
@@ -69,7 +69,7 @@ class StaircaseTrack {
 struct StaircaseThreshold {
   std::optional<double> level;  // none: too few reversals, or at_limit
   std::size_t pairs = 0;        // of reversals that were taken
-  bool at_limit = false;        // one of them lies on the lowest or the highest level
+  bool at_limit = false;        // one of them is at the lowest or the highest level
 };
 
 // The threshold of a track: the geometric mean of the last even number of the reversals after the halvings. At a limit

@@ -17,7 +17,7 @@ enum class StudyFault {
   kStaircaseReversals,  // none is left after the halvings
 };
 
-// An Error with its cause, so that a user can be told what to do about it.
+// An Error with its cause, so that a message can state what to do about it.
 class StudyError : public Error {
  public:
   StudyError(StudyFault fault, const std::string& message) : Error(message), fault_(fault) {}

@@ -29,7 +29,7 @@ struct StudyLog {
   Problems problems;
 };
 
-// Reads a log and follows it. Throws Error naming file and line for what is no log of this version, and for a row that
+// Reads a log and follows it. Throws Error naming file and line if it is not a log of this version, and for a row that
 // is not what the study and its seed give at this place.
 StudyLog parse_study_log(std::string_view text, const std::string& name);
 

@@ -38,10 +38,10 @@ class StudySession {
   // How many trials there are; nothing: a staircase, which knows only at its end.
   std::optional<int> planned() const;
 
-  // Throws Error for a value that is no answer to this method, and if no trial is open.
+  // Throws Error for a value that is not an answer to this method, and if no trial is open.
   const StudyAnswer& give(int value, double response_s, double since_begin_s);
 
-  // The last answer can be taken back once, until the next is given.
+  // The last answer can be withdrawn once, until the next one is given.
   bool can_take_back() const { return may_take_back_; }
   void take_back();
 

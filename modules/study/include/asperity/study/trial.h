@@ -12,7 +12,7 @@ struct Trial {
   int left = 0;                   // index of a stimulus
   int right = -1;                 // -1: there is one tile alone
   std::optional<double> level;    // of a staircase
-  bool comparison_right = false;  // where the changed one lies
+  bool comparison_right = false;  // the side of the changed one
 
   bool operator==(const Trial&) const = default;
 };

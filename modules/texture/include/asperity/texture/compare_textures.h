@@ -57,7 +57,7 @@ struct TextureComparison {
   bool noticeable = false;                      // any of the compared bands, Rq_m or RSm_m
 };
 
-// The just-noticeable difference of a vibration in percent (seed §2.1): 3 up to 250 Hz [19], 18 from 300 Hz
+// The just-noticeable difference of a vibration in percent (thesis §2.1): 3 up to 250 Hz [19], 18 from 300 Hz
 // (Pongrac [18]), between them on a straight line.
 double just_noticeable_percent(double frequency_Hz);
 

@@ -3,7 +3,7 @@
 namespace asperity {
 
 // What a tool rings with after a tap or an edge (Okamura, Dennerlein and Howe 1998; Okamura, Hage and Cutkosky 2001;
-// seed §2.3):
+// thesis §2.3):
 //   Q(t) = (a v + b f) e^(−B t) sin(ω t)
 // as acceleration, v the speed of the impact and f the force. With a pitch, a stroke meets an edge every pitch of
 // distance, at the speed and force of that moment.

@@ -9,7 +9,7 @@ struct HeightAndSlope {
   double slope = 0.0;  // dg/dx, metres a metre
 };
 
-// g and its derivative `x_m` along the scan path (seed §6.5). Takes time in proportion to N; does not
+// g and its derivative `x_m` along the scan path (thesis §6.5). Takes time in proportion to N; does not
 // allocate. Realtime-safe: yes, thread-safe: yes. nan for an x that is not finite.
 HeightAndSlope evaluate_height(const Fourier1d& texture, double x_m) noexcept;
 

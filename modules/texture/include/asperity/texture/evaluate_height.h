@@ -18,21 +18,21 @@ bool is_height_field(const TextureModel& model) noexcept;
 HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double y_m) noexcept;
 
 // The lowest and the highest point of a height field, and what must be added for the lowest to lie on the geometric
-// surface (erratum 20). Throw Error for a model that is no height field.
+// surface (erratum 20). Throw Error for a model that is not a height field.
 double lowest_height_m(const TextureModel& model);
 double highest_height_m(const TextureModel& model);
 double height_offset_m(const TextureModel& model);
 
 // The length along x, in metres, after which the model repeats; nullopt for one that does not.
 std::optional<double> period_m(const TextureModel& model);
-// The same of x and y; never for a model that is no height field.
+// The same of x and y; never for a model that is not a height field.
 HeightPeriods height_periods_m(const TextureModel& model);
 
 // The period of a model of x alone; nullopt for all others.
 std::optional<double> line_length_mm(const TextureModel& model);
 
 // Where a height field shows all that it has, in at most `most_cells` cells along each direction of an image or a
-// grid; nullopt for a model that is no height field.
+// grid; nullopt for a model that is not a height field.
 std::optional<HeightWindow> height_window(const TextureModel& model, std::size_t most_cells);
 
 // Where the lines lie along which its roughness is measured; a model of x alone has one line.

@@ -36,7 +36,7 @@ struct FourierFit {
   Problems problems;             // "short_texture"
 };
 
-// Fourier series of heights `spacing_m` apart, nan in gaps (seed §6.5, erratum 18): of the M samples of
+// Fourier series of heights `spacing_m` apart, nan in gaps (thesis §6.5, erratum 18): of the M samples of
 // a gap-free window of length L (the whole number of samples nearest to it), a_j = 2/M·Re and
 // b_j = −2/M·Im of the discrete Fourier transform, j = 1…N. Of all windows, the one with the fewest
 // bridged samples is taken; among those the one that continues itself best and whose RMS height is most

@@ -43,7 +43,7 @@ struct Fourier2dFit {
   Problems problems;  // "not_isotropic"
 };
 
-// A surface from the profile along x and the one along y (the same if there is only one; seed §6.5,
+// A surface from the profile along x and the one along y (the same if there is only one; thesis §6.5,
 // erratum 21). With g the profiles less their means, d = max g − g their depths:
 //   outer      h = s·g(x)g(y), s so that the RMS height is the profiles' (their geometric mean). Where the
 //              profile has a hole, the product of two holes is a peak.

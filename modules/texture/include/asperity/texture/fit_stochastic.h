@@ -37,9 +37,9 @@ struct StochasticFit {
   Problems problems;                  // "not_stochastic"
 };
 
-// A stochastic texture of heights `spacing_m` apart, nan in gaps (seed §6.5: mean 0, variance that of the heights). How
-// little of the profile that keeps is in the errors: distribution and spectrum, the latter of the longest gap-free
-// stretch, as ½ Σ |P_k/ΣP − Q_k/ΣQ| over Welch's estimates. Above half, a Problem says that the profile is no noise.
+// A stochastic texture of heights `spacing_m` apart, nan in gaps (thesis §6.5: mean 0, variance that of the heights).
+// How little of the profile that keeps is in the errors: distribution and spectrum, the latter of the longest gap-free
+// stretch, as ½ Σ |P_k/ΣP − Q_k/ΣQ| over Welch's estimates. Above half, a Problem says that the profile is not noise.
 // Throws Error for an infinite height, a spacing that is not positive, or no gap-free stretch of 64 samples.
 StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
                              const FitStochasticConfig& config = {});

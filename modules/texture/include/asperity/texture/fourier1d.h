@@ -5,7 +5,7 @@
 
 namespace asperity {
 
-// A periodic height along the scan path (seed §6.5, erratum 18):
+// A periodic height along the scan path (thesis §6.5, erratum 18):
 //   g(x) = mean_m + Σ_{j=1..N} a_j cos(j ω x) + b_j sin(j ω x),  ω = 2π / L.
 // The length is in millimetres, as in the seed and in the file.
 struct Fourier1d {

@@ -22,7 +22,7 @@ struct IsotropicSpectrum {
   std::int64_t seed = 0;  // of the phases
 };
 
-// A height over a plane, periodic in both directions (seed §6.5, erratum 21):
+// A height over a plane, periodic in both directions (thesis §6.5, erratum 21):
 //   kOuter, kPattern   h(x, y) = offset_m + scale_per_m · x(x) · y(y)
 //   kIsotropic         h(x, y) = Σ over the spectrum's waves, held as the spline `grid`, which
 //                      synthesize_isotropic() makes of the spectrum

@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// A height over a plane as a grey-scale image (seed §6.5, Fig. 38): pixel (row, column) lies at
+// A height over a plane as a grey-scale image (thesis §6.5, Fig. 38): pixel (row, column) lies at
 // x = column·mm_per_px_x, y = row·mm_per_px_y and has the height
 //   low_m + level / (2^bits − 1) · (high_m − low_m).
 // A tiling image (kPeriodic) repeats after `columns` and `rows` pixels.

@@ -23,8 +23,8 @@ struct ReadHeightImageConfig {
   }
 };
 
-// An image as a height map (seed §6.5, Fig. 38: 10 mm, 2.5 mm from black to white): a PNG, a JPEG, a TIFF, or a PGM, P5
-// or P2, of up to 16 bits; its first bytes say which. Black is 0, and the height offset is 0: an image without black
+// An image as a height map (thesis §6.5, Fig. 38: 10 mm, 2.5 mm from black to white): a PNG, a JPEG, a TIFF, or a PGM,
+// P5 or P2, of up to 16 bits; its first bytes say which. Black is 0, and the height offset is 0: an image without black
 // begins higher. Other than gray of 8 or 16 bits (a palette, colours, fewer bits, transparency, JPEG) is converted to
 // its brightness (convert_png), a TIFF of other numbers to 16 bits from its lowest to its highest; which `problems`, if
 // given, gets as "converted_image". The texture is named after the file. Throws Error naming the file for one that

@@ -24,7 +24,7 @@ struct SampleHeightsConfig {
 };
 
 // Heights of a height field along a straight line, its height offset not added: round(length / spacing) of them. Throws
-// Error for a model that is no height field, a step that is not positive, or more than 10⁸ heights.
+// Error for a model that is not a height field, a step that is not positive, or more than 10⁸ heights.
 std::vector<double> sample_heights(const TextureModel& model, const SampleHeightsConfig& config = {});
 
 // Lines along x through a height field, where its roughness is measured: one if it is the same for every y, else

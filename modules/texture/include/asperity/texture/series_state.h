@@ -33,7 +33,7 @@ struct SeriesForce {
   double tangential_N = 0.0;
 };
 
-// A state at rest. One seed and stream give one series; streams of one seed are independent. The states of the
+// A state without motion. One seed and stream give one series; streams of one seed are independent. The states of the
 // lattice are drawn from their stationary distribution, so that there is no transient to wait for.
 SeriesState start_series(std::uint64_t seed, std::uint64_t stream = 0);
 

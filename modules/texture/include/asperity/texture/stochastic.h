@@ -2,7 +2,7 @@
 
 namespace asperity {
 
-// White Gaussian heights under the tip (Siira and Pai 1996; seed §2.3 and §6.5, erratum 27):
+// White Gaussian heights under the tip (Siira and Pai 1996; thesis §2.3 and §6.5, erratum 27):
 //   σ(v, f) = sigma_m (v / reference_speed)^speed_exponent (f / reference_force)^force_exponent
 //   H = clamp(σ z + offset_sigmas σ, 0, 2 offset_sigmas σ),  z normal with mean 0 and variance 1
 //   normal force k H, tangential force rho k (H − offset_sigmas σ), k = stiffness.

@@ -25,7 +25,7 @@ struct TextureModelTraits<StochasticTexture> {
   static void stroke(const StochasticTexture& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2);
   static void prepare(StochasticTexture& t, double rate_Hz);
   static SeriesHeights heights(const StochasticTexture& t);
-  // σ and the correlation length of the heights along x, several lines of them (seed §6.5: "variance equal to the
+  // σ and the correlation length of the heights along x, several lines of them (thesis §6.5: "variance equal to the
   // variation in height of the texture function").
   static void take_heights(StochasticTexture& t, const Texture& height_field);
 

@@ -30,7 +30,7 @@ struct Texture {
   std::string name;
   TextureModel model;
 
-  std::optional<double> compliance_kc;                      // k_c, within 0 and 1 (seed §5.3)
+  std::optional<double> compliance_kc;                      // k_c, within 0 and 1 (thesis §5.3)
   std::optional<double> stiffness_N_per_m;                  // overrides the scene's
   std::optional<double> friction;                           // coefficient; overrides the scene's
   std::optional<double> static_friction_ratio;              // coefficient of sticking over it; overrides the scene's

@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-// A file that lies beside a *.texture.json and is named by it: an image or a table.
+// A file in the folder of a *.texture.json that names it: an image or a table.
 struct TexturePayload {
   std::string file;
   std::string content;

@@ -16,7 +16,7 @@ using PlanePoint = std::array<double, 2>;
 std::vector<std::array<int, 3>> triangulate_points(std::span<const PlanePoint> points);
 
 // The edges that belong to one triangle only; the points on the shortest chain along their line instead, if there
-// is no triangle.
+// is not a triangle.
 std::vector<std::array<int, 2>> border_edges(std::span<const PlanePoint> points,
                                              std::span<const std::array<int, 3>> triangles);
 

@@ -14,7 +14,7 @@ namespace asperity {
 // Poses as lines of text, those of a tracker.csv: t_ns,px_m,py_m,pz_m,qw,qx,qy,qz and perhaps markers,reprojection_px;
 // what follows is passed over. An empty t_ns stands for the time of arrival. Any bytes are survived: a line that is
 // no pose (a cell that is no number, a quaternion more than 1e-3 off length one, more than 1000 bytes) is counted.
-// Empty lines, those that begin with # and a header are no poses and no errors.
+// Empty lines, those that begin with # and a header are neither poses nor errors.
 class PoseLines {
  public:
   // A line that begins with one of `bodies` and a comma is a pose of that body: sample.body is its place, from 1.

@@ -70,7 +70,7 @@ struct InertialStream {
   std::size_t size() const { return t_ns.size(); }
 };
 
-// Calibrates the probe's counts (erratum 4) and judges every sample: spikes (seed §4.1) are replaced by
+// Calibrates the probe's counts (erratum 4) and judges every sample: spikes (thesis §4.1) are replaced by
 // their neighbours' mean, clipped peaks are restored by a cubic, and both get a standard deviation that
 // takes their weight. Throws Error if there are fewer than two samples or the calibration is singular.
 InertialStream calibrate_inertial(const Recording& recording, const InertialConfig& config);

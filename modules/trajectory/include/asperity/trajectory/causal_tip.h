@@ -68,7 +68,7 @@ class CausalTip {
   void push(const TrackerSample& pose);
 
   // Appends the samples that have become final since the last call to `out`, in order of time. `broken` is set for a
-  // sample before which the estimate began anew: positions jump there.
+  // sample before which the estimate restarted: positions jump there.
   // `steady_m` is the tip's position again, with the tracker's corrections let in slowly: worse as a position, far
   // better where it is compared with itself a few millimetres back (docs/live-profile.md).
   // `ahead_m` is the way from the sample to where the newest window has the tip ahead_s later: not final.

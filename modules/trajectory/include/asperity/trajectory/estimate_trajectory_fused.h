@@ -18,7 +18,7 @@ struct FusedConfig {
   double gyro_matrix_sigma = 0.01;       // of the gyroscope
   double gravity_sigma_mps2 = 0.02;      // of the stated gravity, each axis
   double tip_sigma_m = 1e-4;             // of the tip in the marker, each axis, where the calibration states none
-  double slow_share = 0.2;               // the tracker's slow error, a share of its white noise
+  double slow_share = 0.2;               // the tracker's drift, a share of its white noise
   double slow_time_s = 1.0;              // its time constant
   double process_noise_scale = 0.0;      // factor on the process noise, nothing learnt of it; 0: learnt by likelihood
   double tracker_time_sigma_s = 0.3e-3;  // jitter of one pose's time

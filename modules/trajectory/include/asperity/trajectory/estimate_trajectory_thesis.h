@@ -35,7 +35,7 @@ struct ThesisTrajectoryConfig {
   }
 };
 
-// The tip's motion by the seed's method, a sample every period (seed §4.1 to §4.3, B.1): outliers
+// The tip's motion by the thesis's method, a sample every period (thesis §4.1 to §4.3, B.1): outliers
 // rejected, streams synchronised, positions and orientations Kalman filtered forward, gravity removed.
 // B.1's position data is the tip's, so the tip offset is applied to the tracker's poses before the
 // filter. The accelerometer is taken to be at the tip, wherever it really sits.

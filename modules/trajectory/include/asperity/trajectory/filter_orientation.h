@@ -10,8 +10,8 @@ namespace asperity {
 // The quaternions with each one's sign chosen so that neighbours lie on one half of the sphere.
 std::vector<Eigen::Quaterniond> make_signs_continuous(std::span<const Eigen::Quaterniond> q);
 
-// The seed's linear Kalman filter with the state x = [q] and F = H = I, component by component, each
-// result normalised (seed §4.2, erratum 9), after making the signs continuous. `process_rad2` is the
+// The thesis's linear Kalman filter with the state x = [q] and F = H = I, component by component, each
+// result normalised (thesis §4.2, erratum 9), after making the signs continuous. `process_rad2` is the
 // variance of the rotation gained from one sample to the next, `measurement_rad2` that of a measured
 // angle about one axis; a quaternion's component has a quarter of each. Throws Error unless
 // measurement_rad2 is positive.

@@ -30,7 +30,7 @@ struct Outliers {
 };
 
 // Marks the probe's samples in which any accelerometer axis or the force steps by more than a threshold
-// from the last sample kept: spikes of the link (seed §4.1). The first sample is compared with the
+// from the last sample kept: spikes of the link (thesis §4.1). The first sample is compared with the
 // median of the first few. If more than `longest_run` samples in a row step away, the level has changed
 // and they are kept. Counts are compared in physical units by the row norms of the calibration's B;
 // cells that are nan are not compared.

@@ -19,7 +19,7 @@ struct SynchronisedStreams {
   std::vector<Pose> T_world_marker;
 };
 
-// Resamples both streams every `period_ns` over the time that they share (seed §4.1, erratum 11):
+// Resamples both streams every `period_ns` over the time that they share (thesis §4.1, erratum 11):
 // counts and positions by linear interpolation, orientations by SLERP (erratum 1). The tracker's times
 // are first moved back by `latency_s` to when the image was taken. Rejected samples and empty cells are
 // interpolated over; before the first and after the last force the nearest holds. With `average` a count is
