@@ -1,6 +1,7 @@
 #include "asperity/studio/document.h"
 
 #include <algorithm>
+#include <new>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
@@ -114,6 +115,8 @@ void Document::load() {
   if (!std::filesystem::exists(file_, error)) return;
   try {
     read(read_file(file_, kLargestFile));
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the file
   } catch (const std::exception& fault) {
     for (const auto& [name, first] : first_) value_[name] = first;
     undo_.clear();
@@ -121,6 +124,11 @@ void Document::load() {
     std::filesystem::path aside = file_;
     aside += ".unreadable";
     std::filesystem::rename(file_, aside, error);
+    // In its place the next save would replace it.
+    if (error) {
+      throw Error(file_.string() + ": cannot be read: " + fault.what() + ", and cannot be renamed: " + error.message() +
+                  "; nothing was changed");
+    }
     problems_.push_back(printable(file_.filename().string()) + " could not be read and was renamed to " +
                         printable(aside.filename().string()) + ": " + printable(fault.what(), 300));
   }

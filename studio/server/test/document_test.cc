@@ -112,6 +112,15 @@ TEST_F(DocumentTest, ADamagedFileIsPutAside) {
   }
 }
 
+// In its place the next save would replace it.
+TEST_F(DocumentTest, ADamagedFileThatCannotBePutAsideIsAnError) {
+  std::ofstream(file_) << "7";
+  std::filesystem::create_directories(file_.string() + ".unreadable");
+  EXPECT_THROW(make_document(file_), Error);
+  std::ifstream file(file_);
+  EXPECT_EQ(file.get(), '7');
+}
+
 TEST_F(DocumentTest, LongPathsAndLabelsAreRefusedAtOnce) {
   EXPECT_THROW(document_->edit("/page" + std::string(100'000, '/'), 1, "slashes"), Error);
   std::string deep = "/page";

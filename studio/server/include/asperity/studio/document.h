@@ -39,7 +39,7 @@ class Document {
 
   // Before load(): a page's section with its first value.
   void add_section(const std::string& name, Json first, Validator validator, Updater updater = {});
-  // Reads the file. A section that its page does not take begins with its first value, and a note is left.
+  // A section that its page does not take has its first value, and a note. Throws Error where putting aside fails.
   void load();
   // The same of the file's content. Throws Error if it is not a document at all; the value is then of no use.
   void read(std::string_view text);
