@@ -1,11 +1,14 @@
 /* Preloaded into the program: one call of its that writes below a folder fails, or one that takes memory.
  *   FAULT_ROOT=FOLDER       calls on files below it are counted (absolute)
  *   FAULT_AT=N              the Nth of them fails with EIO, from 1; 0: none
- *   FAULT_FROM=1            all from the Nth on fail with ENOSPC, as on a full disk
+ *   FAULT_FROM=1            all from the Nth on fail with ENOSPC, as on a full disk, but those that take no room
+ *   FAULT_NO_EXCHANGE=1     two names cannot be exchanged, as on NFS, vfat and many of FUSE (EINVAL)
  *   FAULT_MALLOC=N          the Nth call of malloc, calloc or realloc after main() began gives none
  *   FAULT_COUNTS=FILE       at the end: how many calls there were of both kinds
- * Counted are open and fopen for writing, write, writev, pwrite, fsync, fdatasync, rename and mkdir. */
+ * Counted are open and fopen, write, writev, pwrite, fsync, fdatasync, sendfile, ftruncate, rename, link and mkdir, and
+ * of those that take no room opendir, readdir, unlink, remove and rmdir, and opening for reading. */
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
@@ -22,7 +26,7 @@
 
 static atomic_long s_calls, s_allocations;
 static long s_at = -1, s_malloc = -1;
-static int s_from, s_in_main;
+static int s_from, s_no_exchange, s_in_main;
 static char s_root[PATH_MAX], s_counts[PATH_MAX];
 static size_t s_root_length;
 
@@ -42,6 +46,7 @@ static void read_settings(void) {
   s_at = getenv("FAULT_AT") != NULL ? atol(getenv("FAULT_AT")) : 0;
   s_malloc = getenv("FAULT_MALLOC") != NULL ? atol(getenv("FAULT_MALLOC")) : 0;
   s_from = getenv("FAULT_FROM") != NULL;
+  s_no_exchange = getenv("FAULT_NO_EXCHANGE") != NULL;
 }
 
 static int is_ours(const char* path) {
@@ -75,12 +80,24 @@ static int fails(const char* what, const char* path) {
   return 1;
 }
 
+/* The same of a call that a full disk does not refuse. */
+static int fails_without_room(const char* what, const char* path) {
+  const long number = atomic_fetch_add(&s_calls, 1) + 1;
+  note(what, path, number);
+  if (s_from || s_at <= 0 || number != s_at) return 0;
+  errno = EIO;
+  return 1;
+}
+
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
 static int open_it(const char* path, int flags, mode_t mode) {
   static __typeof__(&open) real;
   if (real == NULL) real = REAL(open);
-  if ((flags & O_ACCMODE) != O_RDONLY && is_ours(path) && fails("open", path)) return -1;
+  if (is_ours(path)) {
+    const int writes = (flags & O_ACCMODE) != O_RDONLY;
+    if (writes ? fails("open", path) : fails_without_room("open to read", path)) return -1;
+  }
   return real(path, flags, mode);
 }
 int open(const char* path, int flags, ...) {
@@ -97,12 +114,16 @@ int open64(const char* path, int flags, ...) {
   va_end(list);
   return open_it(path, flags, mode);
 }
+static int fopen_fails(const char* path, const char* mode) {
+  if (!is_ours(path)) return 0;
+  return strpbrk(mode, "wa+") != NULL ? fails("fopen", path) : fails_without_room("fopen to read", path);
+}
 FILE* fopen(const char* path, const char* mode) {
-  if (strpbrk(mode, "wa+") != NULL && is_ours(path) && fails("fopen", path)) return NULL;
+  if (fopen_fails(path, mode)) return NULL;
   return REAL(fopen)(path, mode);
 }
 FILE* fopen64(const char* path, const char* mode) {
-  if (strpbrk(mode, "wa+") != NULL && is_ours(path) && fails("fopen", path)) return NULL;
+  if (fopen_fails(path, mode)) return NULL;
   return REAL(fopen64)(path, mode);
 }
 ssize_t write(int file, const void* bytes, size_t count) {
@@ -135,12 +156,81 @@ int rename(const char* from, const char* to) {
   return REAL(rename)(from, to);
 }
 int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) {
+  if (s_no_exchange && (flags & RENAME_EXCHANGE) != 0 && is_ours(to)) return errno = EINVAL, -1;
   if (is_ours(to) && fails("renameat2", to)) return -1;
   return REAL(renameat2)(from_folder, from, to_folder, to, flags);
 }
 int mkdir(const char* path, mode_t mode) {
   if (is_ours(path) && fails("mkdir", path)) return -1;
   return REAL(mkdir)(path, mode);
+}
+int link(const char* from, const char* to) {
+  if (is_ours(to) && fails("link", to)) return -1;
+  return REAL(link)(from, to);
+}
+int ftruncate(int file, off_t length) {
+  char path[PATH_MAX];
+  if (is_ours_file(file, path) && fails("ftruncate", path)) return -1;
+  return REAL(ftruncate)(file, length);
+}
+int unlink(const char* path) {
+  if (is_ours(path) && fails_without_room("unlink", path)) return -1;
+  return REAL(unlink)(path);
+}
+int remove(const char* path) {
+  if (is_ours(path) && fails_without_room("remove", path)) return -1;
+  return REAL(remove)(path);
+}
+ssize_t sendfile(int to, int from, off_t* at, size_t count) {
+  char path[PATH_MAX];
+  if (is_ours_file(to, path) && fails("sendfile", path)) return -1;
+  return REAL(sendfile)(to, from, at, count);
+}
+int rmdir(const char* path) {
+  if (is_ours(path) && fails_without_room("rmdir", path)) return -1;
+  return REAL(rmdir)(path);
+}
+/* A name in a folder that is open, as libstdc++ removes a tree. */
+static int is_ours_below(int folder, const char* name, char* whole) {
+  if (folder == AT_FDCWD || name[0] == '/') {
+    snprintf(whole, PATH_MAX, "%s", name);
+    return is_ours(name);
+  }
+  if (!is_ours_file(folder, whole)) return 0;
+  const size_t length = strlen(whole);
+  snprintf(whole + length, PATH_MAX - length, "/%s", name);
+  return 1;
+}
+int unlinkat(int folder, const char* name, int flags) {
+  char path[PATH_MAX];
+  if (is_ours_below(folder, name, path) && fails_without_room("unlinkat", path)) return -1;
+  return REAL(unlinkat)(folder, name, flags);
+}
+DIR* opendir(const char* path) {
+  if (is_ours(path) && fails_without_room("opendir", path)) return NULL;
+  return REAL(opendir)(path);
+}
+int openat(int folder, const char* name, int flags, ...) {
+  char path[PATH_MAX];
+  va_list list;
+  va_start(list, flags);
+  const mode_t mode = (mode_t)va_arg(list, unsigned);
+  va_end(list);
+  if (is_ours_below(folder, name, path)) {
+    const int writes = (flags & O_ACCMODE) != O_RDONLY;
+    if (writes ? fails("openat", path) : fails_without_room("openat to read", path)) return -1;
+  }
+  return REAL(openat)(folder, name, flags, mode);
+}
+struct dirent* readdir(DIR* folder) {
+  char path[PATH_MAX];
+  if (is_ours_file(dirfd(folder), path) && fails_without_room("readdir", path)) return NULL;
+  return REAL(readdir)(folder);
+}
+struct dirent64* readdir64(DIR* folder) {
+  char path[PATH_MAX];
+  if (is_ours_file(dirfd(folder), path) && fails_without_room("readdir", path)) return NULL;
+  return REAL(readdir64)(folder);
 }
 
 /* Memory. dlsym itself may ask for some, before the real one is known. */

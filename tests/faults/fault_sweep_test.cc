@@ -1,9 +1,15 @@
-// Every call of a command that writes fails once (EIO), or all from one on (a full disk), and memory runs out once.
+// Every call of a command on its files fails once (EIO), or all writing ones from one on (a full disk), and memory runs
+// out once.
 // Whatever happens, the program must not crash, what was there must be there whole, old or new, and what the program
 // says must be so. FAULT_STRIDE takes every so manieth position only; scripts/check takes all.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +18,8 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "asperity/testkit/temp_dir.h"
@@ -36,6 +44,22 @@ struct Calls {
   long io = 0, memory = 0;
 };
 
+// The variables of this process, which a program inherits, while it runs.
+class Variables {
+ public:
+  explicit Variables(std::map<std::string, std::string> all) : all_(std::move(all)) {
+    for (const auto& [name, value] : all_) ::setenv(name.c_str(), value.c_str(), 1);
+  }
+  ~Variables() {
+    for (const auto& [name, value] : all_) ::unsetenv(name.c_str());
+  }
+  Variables(const Variables&) = delete;
+  Variables& operator=(const Variables&) = delete;
+
+ private:
+  std::map<std::string, std::string> all_;
+};
+
 // The program under the shim, with calls below `root` counted, and one of them failing.
 class Shimmed {
  public:
@@ -44,12 +68,10 @@ class Shimmed {
   Outcome run_with(const Words& words, const std::map<std::string, std::string>& settings) {
     std::map<std::string, std::string> all = settings;
     all["LD_PRELOAD"] = FAULT_SHIM;
-    all["FAULT_ROOT"] = (root_ / "work").string();
+    all.emplace("FAULT_ROOT", (root_ / "work").string());
     all["FAULT_COUNTS"] = counts_.string();
-    for (const auto& [name, value] : all) ::setenv(name.c_str(), value.c_str(), 1);
-    const Outcome outcome = run(words);
-    for (const auto& [name, value] : all) ::unsetenv(name.c_str());
-    return outcome;
+    const Variables variables(std::move(all));
+    return run(words);
   }
   Calls calls() const {
     Calls out;
@@ -64,9 +86,10 @@ class Shimmed {
 // A command that writes to `work/out`, and how its results of another time came to be.
 struct Writer {
   const char* name;
-  Words words;                  // @ stands for the folder of the inputs, # for the output
-  Words before;                 // the same with other settings; empty: the output is never replaced
-  const char* start = nullptr;  // of the inputs, the folder that is the output when the command begins
+  Words words;                    // @ stands for the folder of the inputs, # for the output
+  Words before;                   // the same with other settings; empty: the output is never replaced
+  const char* start = nullptr;    // of the inputs, the folder that is the output when the command begins
+  const char* program = nullptr;  // another than asperity, whose result depends on what it replaces
 };
 
 void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
@@ -97,6 +120,7 @@ const std::vector<Writer>& writers() {
        {"texture", "fit", "@/processed/profile.csv", "-o", "#.texture.json"},
        {"texture", "fit", "@/processed/profile.csv", "--name", "another", "-o", "#.texture.json"}},
       {"calibrate_force", {"calibrate", "force", "@/force.csv", "-o", "#.json"}, {}},
+      {"save_document", {"#.json", "2"}, {"#.json", "1"}, nullptr, SAVE_DOCUMENT},
   };
   return all;
 }
@@ -144,9 +168,13 @@ void restore(const fs::path& folder, const fs::path& from) {
 
 class Faults : public testing::TestWithParam<Writer> {
  protected:
-  Faults() {
+  Faults() : other_program_(other_program()) {
     begin();
     fs::create_directories(dir_ / "before");
+  }
+  static std::map<std::string, std::string> other_program() {
+    if (GetParam().program == nullptr) return {};
+    return {{"ASPERITY_OTHER_PROGRAM", GetParam().program}, {"ASPERITY_USE_OTHER", "1"}};
   }
   // As it is before the command.
   void begin() {
@@ -162,7 +190,7 @@ class Faults : public testing::TestWithParam<Writer> {
   void judge(const Outcome& outcome, const Contents& before, const Contents& after, int done_code,
              const std::string& where, bool may_abort = false) {
     const bool aborted = may_abort && outcome.code == 128 + SIGABRT;
-    const Contents now = contents(work());
+    const Contents now = with_names_as_before(contents(work()), outcome);
     Contents named;
     for (const auto& [name, text] : now) {
       const std::string top = name.substr(0, name.find('/'));
@@ -193,7 +221,18 @@ class Faults : public testing::TestWithParam<Writer> {
     EXPECT_THAT(outcome.err, says_written) << where;
   }
 
+  // The studio puts a document aside that it cannot read, and says so: it is whole under another name.
+  static Contents with_names_as_before(Contents now, const Outcome& outcome) {
+    constexpr std::string_view kAside = ".unreadable";
+    if (outcome.err.find("was renamed to") == std::string::npos) return now;
+    for (auto& [name, text] : now) {
+      if (name.ends_with(kAside)) name.resize(name.size() - kAside.size());
+    }
+    return now;
+  }
+
   long aborts_ = 0;
+  Variables other_program_;
   testkit::TempDir dir_;
 };
 
@@ -223,13 +262,16 @@ TEST_P(Faults, OldOrNewIsWholeAndToldSo) {
     program.run_with(words, {});
     const long calls = program.calls().io;
     ASSERT_GT(calls, 0);
+    const Contents whole = contents(work());
+    ASSERT_TRUE(whole == after || writer.program != nullptr);
+    ASSERT_TRUE(whole != before);
     for (long at = 1; at <= calls; at += stride) {
       for (const bool full_disk : {false, true}) {
         restore(work(), dir_ / "before");
         std::map<std::string, std::string> settings{{"FAULT_AT", std::to_string(at)}};
         if (full_disk) settings["FAULT_FROM"] = "1";
         const Outcome outcome = program.run_with(words, settings);
-        judge(outcome, before, after, reference.code,
+        judge(outcome, before, whole, reference.code,
               std::string(writer.name) + (replaces ? ", replacing" : ", new") +
                   (full_disk ? ", full from call " : ", call ") + std::to_string(at) + " of " + std::to_string(calls));
         ++tried;
@@ -237,6 +279,63 @@ TEST_P(Faults, OldOrNewIsWholeAndToldSo) {
     }
   }
   std::printf("%s: %ld faults of disk calls\n", writer.name, tried);
+}
+
+// Where two names cannot be exchanged, two renames leave a moment without a result under its name. If the second fails
+// and so does the third, back, then the old one is whole under the name that the message gives.
+TEST(ExchangeFaults, WithoutAnExchangeOldOrNewIsWholeOrNamed) {
+  const testkit::TempDir dir;
+  const fs::path work = dir / "work", out = dir / "work/out";
+  fs::create_directories(work);
+  const Words words = with_places({"process", "@/rec", "-o", "#"}, out);
+  ASSERT_LT(run(words).code, 4);
+  const Contents after = contents(work);
+  ASSERT_LT(run(with_places({"process", "@/rec", "--set", "profile.cutoff_cycles_per_mm=0.2", "-o", "#"}, out)).code,
+            4);
+  const Contents before = contents(work);
+  ASSERT_TRUE(before != after);
+  restore(dir / "before", work);
+  Shimmed program(dir.path());
+  // The trace numbers the calls: those behind the sync of the new folder are the renames and what follows.
+  const Outcome traced = program.run_with(words, {{"FAULT_NO_EXCHANGE", "1"}, {"FAULT_TRACE", "1"}});
+  EXPECT_TRUE(contents(work) == after) << "two renames replace, too";
+  const std::size_t moved = traced.err.find(".old\n");
+  ASSERT_NE(moved, std::string::npos) << traced.err;
+  const std::size_t line = traced.err.rfind('\n', moved) + 1;
+  const long moves = std::atol(traced.err.c_str() + line), calls = program.calls().io;
+  ASSERT_GT(moves, 0);
+  long lost = 0;
+  for (long at = moves; at <= std::min(calls, moves + 5); ++at) {
+    for (const bool full_disk : {false, true}) {
+      restore(work, dir / "before");
+      std::map<std::string, std::string> settings{{"FAULT_NO_EXCHANGE", "1"}, {"FAULT_AT", std::to_string(at)}};
+      if (full_disk) settings["FAULT_FROM"] = "1";
+      const Outcome outcome = program.run_with(words, settings);
+      const std::string where = "call " + std::to_string(at) + " of " + std::to_string(calls) + ": " + outcome.err;
+      EXPECT_LT(outcome.code, 128) << where;
+      if (fs::exists(out)) {
+        Contents now = contents(work);
+        std::erase_if(now, [](const auto& one) { return !one.first.starts_with("out/"); });
+        EXPECT_TRUE(now == before || now == after) << where;
+        if (contents(work) == before || contents(work) == after) continue;
+      } else {
+        ++lost;
+      }
+      // What is left beside it is named; where nothing has the result's name it is the old one, whole.
+      for (const auto& entry : fs::directory_iterator(work)) {
+        const std::string name = entry.path().filename().string();
+        if (name == "out") continue;
+        EXPECT_THAT(outcome.err, HasSubstr(name)) << where;
+        if (fs::exists(out)) continue;
+        Contents old;
+        for (const auto& [inner, text] : contents(entry.path())) old.emplace_back("out/" + inner, text);
+        old.emplace_back("out/", "");
+        std::sort(old.begin(), old.end());
+        EXPECT_TRUE(old == before) << where;
+      }
+    }
+  }
+  EXPECT_EQ(lost, 1) << "of a disk that is full from the second rename on";
 }
 
 // FAULT_MEMORY positions: two thirds one after the other from the first, where there are 1000, the others spread over
@@ -278,59 +377,215 @@ TEST_P(Faults, MemoryThatRunsOut) {
 INSTANTIATE_TEST_SUITE_P(Commands, Faults, testing::ValuesIn(writers()),
                          [](const auto& one) { return std::string(one.param.name); });
 
-// A take that the disk ends keeps what came before, and says that it was ended.
-TEST(RecordFaults, ATakeKeepsWhatCameBefore) {
-  const testkit::TempDir dir;
-  fs::create_directories(dir / "work");
-  write_live_calibration(dir / "calibration.json");
-  {
+// A take of a probe's capture and a tracker's poses, which is played again.
+class RecordFaults : public testing::Test {
+ protected:
+  RecordFaults() {
+    begin();
+    write_live_calibration(dir_ / "calibration.json");
     const LiveProbe probe;
-    const LivePoses poses(dir / "poses");
+    const LivePoses poses(dir_ / "poses");
     const Outcome live = run({"record", "--probe", "serial:" + probe.port(), "--poses",
-                              "pipe:" + (dir / "poses").string(), "--calibration", dir / "calibration.json",
-                              "--capture", dir / "probe.bin", "--duration", "1s", "-o", dir / "live"});
-    ASSERT_EQ(live.code, 0) << live.err;
+                              "pipe:" + (dir_ / "poses").string(), "--calibration", dir_ / "calibration.json",
+                              "--capture", dir_ / "probe.bin", "--duration", "1s", "-o", dir_ / "live"});
+    EXPECT_EQ(live.code, 0) << live.err;
   }
-  const Words words{"record",
-                    "--probe",
-                    "file:" + (dir / "probe.bin").string(),
-                    "--poses",
-                    "file:" + (dir / "live/tracker.csv").string(),
-                    "--calibration",
-                    dir / "calibration.json",
-                    "--set",
-                    "recorder.sync_s=0.1",
-                    "-o",
-                    dir / "work/rec"};
-  Shimmed program(dir.path());
-  const Outcome reference = program.run_with(words, {});
+  void begin() {
+    fs::remove_all(dir_ / "work");
+    fs::create_directories(dir_ / "work");
+  }
+  Words words(const Words& more = {}) const {
+    Words out{"record",
+              "--probe",
+              "file:" + (dir_ / "probe.bin").string(),
+              "--poses",
+              "file:" + (dir_ / "live/tracker.csv").string(),
+              "--calibration",
+              dir_ / "calibration.json",
+              "--set",
+              "recorder.sync_s=0.1",
+              "-o",
+              dir_ / "work/rec"};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  }
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(dir_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::string rows() const { return text_of("work/rec/probe.csv"); }
+  // Of the take, from its first on; a write that failed may have left a part of the next.
+  std::string whole_lines() const {
+    const std::string kept = rows();
+    return kept.substr(0, kept.rfind('\n') + 1);
+  }
+  bool is_finished() const {
+    return text_of("work/rec/recording.json").find("\"state\":\"finished\"") != std::string::npos ||
+           text_of("work/rec/recording.json").find("\"state\": \"finished\"") != std::string::npos;
+  }
+
+  testkit::TempDir dir_;
+};
+
+// A take that the disk ends keeps what came before, and says that it was ended.
+TEST_F(RecordFaults, ATakeKeepsWhatCameBefore) {
+  Shimmed program(dir_.path());
+  const Outcome reference = program.run_with(words(), {});
   ASSERT_TRUE(reference.code == 0 || reference.code == 3) << reference.err;
-  std::ifstream whole_rows(dir / "work/rec/probe.csv");
-  const std::string whole_text{std::istreambuf_iterator<char>(whole_rows), {}};
+  const std::string whole_text = rows();
   ASSERT_GT(whole_text.size(), 10'000u);
   std::size_t most_kept = 0;
   const long calls = program.calls().io, stride = number_from("FAULT_STRIDE", 3);
   ASSERT_GT(calls, 5);
   for (long at = 1; at <= calls; at += stride) {
-    fs::remove_all(dir / "work");
-    fs::create_directories(dir / "work");
-    const Outcome outcome = program.run_with(words, {{"FAULT_AT", std::to_string(at)}});
+    begin();
+    const Outcome outcome = program.run_with(words(), {{"FAULT_AT", std::to_string(at)}});
     const std::string where = "call " + std::to_string(at) + " of " + std::to_string(calls) + ": " + outcome.err;
     EXPECT_LT(outcome.code, 128) << where;
     // The number of calls differs from run to run by the disk's pace: behind the last nothing fails.
     if (program.calls().io < at) continue;
     EXPECT_NE(outcome.code, 0) << where;
     EXPECT_FALSE(outcome.err.empty()) << where;
-    if (!fs::exists(dir / "work/rec/probe.csv")) continue;
-    std::ifstream rows(dir / "work/rec/probe.csv");
-    const std::string kept{std::istreambuf_iterator<char>(rows), {}};
-    // Whole lines of the take, from its first on; a write that failed may have left a part of the next.
-    const std::string lines = kept.substr(0, kept.rfind('\n') + 1);
+    if (!fs::exists(dir_ / "work/rec/probe.csv")) continue;
+    const std::string lines = whole_lines();
     EXPECT_TRUE(whole_text.starts_with(lines)) << where;
     most_kept = std::max(most_kept, lines.size());
   }
   EXPECT_GT(most_kept, whole_text.size() / 2) << "the last faults come behind nearly all";
   std::printf("record: %ld faults of disk calls\n", (calls + stride - 1) / stride);
+}
+
+TEST_F(RecordFaults, ATakeWithoutMemoryKeepsWhatCameBefore) {
+  Shimmed program(dir_.path());
+  const Outcome reference = program.run_with(words(), {});
+  ASSERT_TRUE(reference.code == 0 || reference.code == 3) << reference.err;
+  const std::string whole_text = rows();
+  const long calls = program.calls().memory, wanted = number_from("FAULT_MEMORY", 12);
+  program.run_with({"record"}, {});
+  const long started = program.calls().memory;
+  ASSERT_LT(started, calls);
+  long told = 0, aborted = 0;
+  for (long k = 0; k < wanted; ++k) {
+    begin();
+    const long at = started + (calls - started) * k / wanted;
+    const Outcome outcome = program.run_with(words(), {{"FAULT_MALLOC", std::to_string(at)}});
+    const std::string where = "allocation " + std::to_string(at) + " of " + std::to_string(calls) + ": " + outcome.err;
+    EXPECT_TRUE(whole_text.starts_with(whole_lines())) << where;
+    if (outcome.code == 128 + SIGABRT) {
+      ++aborted;
+      std::printf("aborted: %s\n", where.c_str());
+      continue;
+    }
+    EXPECT_LT(outcome.code, 128) << where;
+    if (outcome.code == reference.code) {
+      EXPECT_TRUE(is_finished()) << where;
+      continue;
+    }
+    EXPECT_FALSE(outcome.err.empty()) << where;
+    ++told;
+  }
+  EXPECT_LE(10 * aborted, wanted + 10) << "more than the libraries' few";
+  std::printf("record: %ld faults of memory, %ld told, %ld aborted in a library\n", wanted, told, aborted);
+}
+
+// A capture that the disk refuses ends the take, as the capture's fault and not the probe's; the recording is final.
+TEST_F(RecordFaults, ACaptureThatCannotBeWrittenEndsTheTake) {
+  Shimmed program(dir_.path());
+  const fs::path capture = fs::canonical(dir_ / "work") / "again.bin";
+  const Words all = words({"--capture", capture});
+  const std::map<std::string, std::string> counted{{"FAULT_ROOT", capture.string()}};
+  const Outcome reference = program.run_with(all, counted);
+  ASSERT_TRUE(reference.code == 0 || reference.code == 3) << reference.err;
+  const std::string whole_text = rows();
+  const long calls = program.calls().io;
+  ASSERT_GT(calls, 20);
+  // The first arrival, one of its lines, and the two syncs at the end.
+  for (const long at : {4L, 9L, calls - 1, calls}) {
+    begin();
+    std::map<std::string, std::string> settings = counted;
+    settings["FAULT_AT"] = std::to_string(at);
+    const Outcome outcome = program.run_with(all, settings);
+    const std::string where = "call " + std::to_string(at) + " of " + std::to_string(calls) + ": " + outcome.err;
+    EXPECT_EQ(outcome.code, 1) << where;
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(capture.string()), HasSubstr("Input/output error"))) << where;
+    EXPECT_TRUE(whole_text.starts_with(rows())) << where;
+    EXPECT_TRUE(is_finished()) << where;
+  }
+  EXPECT_EQ(rows(), whole_text) << "a sync at the end takes no row";
+}
+
+// A camera that is a pipe: 50 black images a second.
+class LiveImages {
+ public:
+  explicit LiveImages(const fs::path& fifo) {
+    EXPECT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+    file_ = ::open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    thread_ = std::thread([this] { play(); });
+  }
+  ~LiveImages() {
+    stop_ = true;
+    thread_.join();
+    ::close(file_);
+  }
+  LiveImages(const LiveImages&) = delete;
+  LiveImages& operator=(const LiveImages&) = delete;
+
+ private:
+  void play() const {
+    send("YUV4MPEG2 W64 H48 F50:1 Cmono\n");
+    while (!stop_) {
+      send("FRAME\n" + std::string(64 * 48, '\0'));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+  void send(std::string_view bytes) const {
+    while (!bytes.empty() && !stop_) {
+      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+      if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+      if (count <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+  int file_ = -1;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+// So does an image that cannot be kept.
+TEST_F(RecordFaults, AnImageThatCannotBeWrittenEndsTheTake) {
+  std::string calibration = text_of("calibration.json");
+  const std::string camera =
+      R"("camera":{"width":64,"height":48,"fx":60,"fy":60,"cx":32,"cy":24,"distortion":[0,0,0,0,0]},)";
+  calibration.insert(calibration.find("\"accelerometer\""), camera);
+  write_text(dir_ / "calibration.json", calibration);
+  write_text(dir_ / "markers.json",
+             R"({"markers":[{"id":0,"family":"tag36h11","size_m":0.02,"T_marker_tag":[0,0,0,1,0,0,0]}]})");
+  Shimmed program(dir_.path());
+  const fs::path frames = fs::canonical(dir_ / "work") / "rec/frames";
+  const LiveProbe probe;
+  int fifos = 0;
+  for (const bool full_disk : {false, true}) {
+    for (const long at : {1L, 2L, 3L, 9L}) {
+      begin();
+      const fs::path fifo = dir_ / ("camera" + std::to_string(fifos++));
+      const LiveImages images(fifo);
+      std::map<std::string, std::string> settings{{"FAULT_ROOT", frames.string()}, {"FAULT_AT", std::to_string(at)}};
+      if (full_disk) settings["FAULT_FROM"] = "1";
+      const Outcome outcome =
+          program.run_with({"record", "--probe", "serial:" + probe.port(), "--camera", "y4m:" + fifo.string(),
+                            "--calibration", dir_ / "calibration.json", "--markers", dir_ / "markers.json", "--frames",
+                            "--duration", "20s", "-o", dir_ / "work/rec"},
+                           settings);
+      const std::string where = "call " + std::to_string(at) + ": " + outcome.err;
+      EXPECT_EQ(outcome.code, 1) << where;
+      EXPECT_THAT(outcome.err, HasSubstr(frames.string())) << where;
+      EXPECT_THAT(outcome.err, HasSubstr(full_disk ? "No space left on device" : "Input/output error")) << where;
+      EXPECT_TRUE(is_finished()) << where;
+      EXPECT_GT(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 0);
+      if (!fs::exists(frames)) continue;
+      for (const auto& image : fs::directory_iterator(frames)) EXPECT_EQ(image.path().extension(), ".png") << where;
+    }
+  }
 }
 
 }  // namespace

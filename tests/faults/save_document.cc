@@ -1,18 +1,23 @@
-// Edits a project's file and saves it as the studio does: save_document FILE NUMBER
+// Edits a project's file and saves it as the studio does: save_document FILE NUMBER. A file that cannot be read is put
+// aside, as the studio does; then nothing is saved.
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <string>
 
 #include "asperity/studio/document.h"
 #include "file_saver.h"
 
-int main(int argc, char** argv) {
-  using namespace asperity::studio;
-  if (argc != 3) return 2;
-  Document document(argv[1]);
-  document.add_section("page", asperity::Json::object(), [](const asperity::Json&) {});
+namespace asperity::studio {
+namespace {
+
+int save_number(const char* file, int number) {
+  Document document(file);
+  document.add_section("page", Json::object(), [](const Json&) {});
   document.load();
-  document.edit("/page/number", std::atoi(argv[2]), "count");
+  for (const std::string& problem : document.problems()) std::fprintf(stderr, "%s\n", problem.c_str());
+  if (!document.problems().empty()) return 1;
+  document.edit("/page/number", number, "count");
   int failures = 0;
   {
     FileSaver saver(document.file(), [&failures](const std::string& why) {
@@ -22,4 +27,17 @@ int main(int argc, char** argv) {
     saver.save(document.take_unsaved().value());
   }
   return failures;
+}
+
+}  // namespace
+}  // namespace asperity::studio
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  try {
+    return asperity::studio::save_number(argv[1], std::atoi(argv[2]));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }
