@@ -90,7 +90,7 @@ def body_point(longitude, latitude):
 
 
 def write_body(file):
-    around, up = 120, 60
+    around, up = 360, 180  # facets of 0.7 mm: with those of 2.2 mm the pose is 0.5 degrees off
     longitude, latitude = np.meshgrid(np.arange(around) * 2 * np.pi / around, (np.arange(1, up) / up - 0.5) * np.pi)
     points = 1e3 * np.vstack([body_point(longitude, latitude).reshape(-1, 3), body_point(0.0, -np.pi / 2)[None], body_point(0.0, np.pi / 2)[None]])
     lines = ["v %.6f %.6f %.6f" % tuple(p) for p in points]
@@ -125,8 +125,7 @@ def test_a_path_is_registered_to_a_mesh(body):
     registration = asperity.register_scans([folder / "path.csv"], folder / "body.obj", mesh_unit_m=1e-3, guess=guess)
     found = registration.T_mesh_world(0)
     assert found.shape == (4, 4)
-    # One path determines the rotation to about half a degree; facets of 3 mm are up to 0.04 mm from the body.
-    np.testing.assert_allclose(found[:3, :3], truth[:3, :3], atol=0.015)
+    np.testing.assert_allclose(found, truth, atol=2e-3)  # rotations to 0.1 degrees, lengths to 2 mm
     world = np.loadtxt(folder / "path.csv", delimiter=",", skiprows=1)
     moved = (found - truth) @ np.column_stack([world, np.ones(len(world))]).T
     assert np.sqrt(np.mean(np.sum(moved**2, axis=0))) < 0.5e-3

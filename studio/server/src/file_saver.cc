@@ -34,6 +34,7 @@ void FileSaver::save(std::string content) {
 void FileSaver::run() {
   constexpr std::chrono::seconds kTryAgainAfter{2};
   std::optional<std::string> unwritten;
+  bool tried_at_the_end = false;
   for (;;) {
     bool last = false;
     {
@@ -53,7 +54,8 @@ void FileSaver::run() {
       unwritten.reset();
     } catch (const std::exception& error) {
       failed_(error.what());
-      if (!last) continue;
+      // The first try may have begun before the end: what fails then has one more.
+      if (!last || !std::exchange(tried_at_the_end, true)) continue;
       lost_ = error.what();
       return;
     }

@@ -81,5 +81,15 @@ TEST(FileSaver, TriesOnceMoreAtTheEndAndSaysWhatIsLost) {
   }
 }
 
+// The studio is closed right after an edit, and the only try so far has failed.
+TEST(FileSaver, WhatFailsAtTheEndHasOneMoreTry) {
+  const testkit::TempDir dir;
+  const fs::path file = dir / "folder" / "state";
+  FileSaver saver(file, [&](const std::string&) { fs::create_directory(dir / "folder"); });
+  saver.save("last");
+  EXPECT_EQ(saver.finish(), "");
+  EXPECT_EQ(content(file), "last");
+}
+
 }  // namespace
 }  // namespace asperity::studio
