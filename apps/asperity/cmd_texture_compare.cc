@@ -11,6 +11,7 @@
 #include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/read_heights.h"
+#include "asperity/session/texture_input.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/compare_vibrations.h"
 #include "asperity/texture/evaluate_height.h"
@@ -20,7 +21,6 @@
 #include "json_of.h"
 #include "option_units.h"
 #include "stroke_input.h"
-#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 

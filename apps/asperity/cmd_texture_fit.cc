@@ -23,13 +23,13 @@
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/our_file.h"
 #include "asperity/session/rendered_input.h"
+#include "asperity/session/texture_input.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_fit.h"
 #include "commands.h"
 #include "option_units.h"
 #include "stroke_input.h"
-#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 

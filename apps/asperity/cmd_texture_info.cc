@@ -8,12 +8,12 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/json.h"
+#include "asperity/session/texture_input.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
-#include "asperity/session/texture_input.h"
 #include "texture_lines.h"
 
 namespace asperity::app {

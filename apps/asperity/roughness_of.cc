@@ -21,11 +21,11 @@
 #include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/setting_class.h"
+#include "asperity/session/texture_input.h"
 #include "command.h"
 #include "roughness_figure.h"
 #include "roughness_tables.h"
 #include "stroke_input.h"
-#include "asperity/session/texture_input.h"
 
 namespace asperity::app {
 

@@ -144,8 +144,7 @@ TEST(Calibrate, AccelFromARecordingWithoutATracker) {
   const Outcome outcome = run({"calibrate", "accel", folder.string(), "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json values = json::parse(outcome.out)["values"];
-  for (const json& scale : values["scale_counts_per_mps2"])
-    EXPECT_NEAR(scale.get<double>(), 400.0, 1.0);
+  for (const json& scale : values["scale_counts_per_mps2"]) EXPECT_NEAR(scale.get<double>(), 400.0, 1.0);
 }
 
 TEST(Calibrate, NothingIsWrittenOverAStrangersFileNorFromDataThatSayNothing) {

@@ -78,7 +78,8 @@ TEST(AddTimeLines, AreInAllThatIsSaidOfTheNoise) {
   EXPECT_LT(noise.snr_low, noise.snr);
 }
 
-// The noise before may have been made as large as the measured texture, hum and all: an upper bound of 0 would be wrong.
+// The noise before may have been made as large as the measured texture, hum and all: an upper bound of 0 would be
+// wrong.
 TEST(AddTimeLines, NoiseIsNoMoreThanWhatWasMeasured) {
   Profile profile = profile_of();
   TextureNoise noise = noise_of();

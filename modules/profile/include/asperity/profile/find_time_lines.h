@@ -22,20 +22,20 @@ namespace asperity {
 //   - falls to half within three independent ordinates to both sides,
 //   - is at least half of the highest ordinate over the path at the frequencies that this wave has there, those between
 //     f over the 95th percentile of the speed and f over the 5th.
-// It is not of the surface if it is at least twice that ordinate, and what the errors of places (place_sigma_m, standard
-// deviation) leave of a line of the path, exp(−(2πk σ)²), is above 0.3 and does not explain the difference. On a path
-// that bends (unrolled_m, as for find_periodicity_under_noise.h) ribs are waves of unequal length: it must as well be
-// twice the highest ordinate of straight ribs in any direction. Otherwise, without a place_sigma_m (nan), and where so
-// many directions and waves would have to be tried that they are not, it could be of the surface.
-// Searched is from 27 over the window's length to the frequency at which four points make a wave. Lines weaker than
-// 0.5 % of the heights' power are left out. The strongest first; none without speeds.
+// It is not of the surface if it is at least twice that ordinate, and what the errors of places (place_sigma_m,
+// standard deviation) leave of a line of the path, exp(−(2πk σ)²), is above 0.3 and does not explain the difference. On
+// a path that bends (unrolled_m, as for find_periodicity_under_noise.h) ribs are waves of unequal length: it must as
+// well be twice the highest ordinate of straight ribs in any direction. Otherwise, without a place_sigma_m (nan), and
+// where so many directions and waves would have to be tried that they are not, it could be of the surface. Searched is
+// from 27 over the window's length to the frequency at which four points make a wave. Lines weaker than 0.5 % of the
+// heights' power are left out. The strongest first; none without speeds.
 std::vector<TimeLine> find_time_lines(const Profile& profile, std::span<const double> height_m, double place_sigma_m,
                                       std::span<const Eigen::Vector2d> unrolled_m = {});
 
-// Adds the lines that are not of the surface, `noise.time_lines` without those that could be, to the noise of a profile:
-// their power, at each point's own frequency f/v along the path, to the density of the added noise, and to all that is
-// computed of it: standard deviations of heights and texture, RMS, SNR, the upper bound. Nothing is done where the noise
-// is not known.
+// Adds the lines that are not of the surface, `noise.time_lines` without those that could be, to the noise of a
+// profile: their power, at each point's own frequency f/v along the path, to the density of the added noise, and to all
+// that is computed of it: standard deviations of heights and texture, RMS, SNR, the upper bound. Nothing is done where
+// the noise is not known.
 void add_time_lines(Profile& profile, TextureNoise& noise);
 
 }  // namespace asperity

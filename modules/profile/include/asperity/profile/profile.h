@@ -14,7 +14,7 @@ struct Profile {
   std::vector<double> texture_sigma_m;  // standard deviation of texture_m (texture_noise.h); empty: not estimated
   std::vector<double> force_N;          // of the contact, along the normal (normal_force.h)
   std::vector<double> speed_mps;        // along the base path
-  std::vector<double> t_s;              // when the tip passed, from the motion's first time; nan in gaps; empty: not known
+  std::vector<double> t_s;  // when the tip passed, from the motion's first time; nan in gaps; empty: not known
 
   std::size_t size() const { return s_m.size(); }
 };
