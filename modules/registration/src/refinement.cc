@@ -237,13 +237,14 @@ Equations Refinement::equations(const State& state, const FacetHeights& heights,
   Eigen::MatrixXd& top = sum.top();
   for (std::size_t p = 0; p < chain_.parts.size(); ++p) {
     const auto at = levels_at() + static_cast<Eigen::Index>(p);
-    if (!(whitening[p].relief_m > 0.0)) {
+    const ReliefLevel& level = whitening[p].level;
+    if (!(level.sigma_m > 0.0)) {
       top(at, at) += 1e18;
       continue;
     }
-    const double precision = 1.0 / (whitening[p].relief_m * whitening[p].relief_m);
+    const double precision = 1.0 / (level.sigma_m * level.sigma_m);
     top(at, at) += precision;
-    out.right[at] -= precision * state.level_m[static_cast<Eigen::Index>(p)];
+    out.right[at] -= precision * (state.level_m[static_cast<Eigen::Index>(p)] - level.mean_m);
   }
   for (std::size_t t = 0; t < chain_.tip_sigma_m.size(); ++t) {
     for (Eigen::Index k = 0; k < 3; ++k) {
@@ -291,8 +292,8 @@ double Refinement::likelihood_cost(const State& state, const FacetHeights& heigh
       ++rows;
     });
     all_rows += rows;
-    const double level_m = state.level_m[static_cast<Eigen::Index>(p)];
-    out += level_m * level_m / (filter.relief_m * filter.relief_m);
+    const double away_m = state.level_m[static_cast<Eigen::Index>(p)] - filter.level.mean_m;
+    out += away_m * away_m / (filter.level.sigma_m * filter.level.sigma_m);
     // Points that do not count are as good as the rest; a path without any has left the mesh.
     const auto points = static_cast<double>(part.points);
     out += rows > 0 ? points / static_cast<double>(rows) * sum / filter.variance_m2

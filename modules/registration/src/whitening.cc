@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace asperity::registration {
 
@@ -54,11 +55,27 @@ std::vector<double> autocovariance(const PathChain& chain, const PathChain::Part
   return r;
 }
 
+ReliefLevel level_of(const PathChain& chain, const PathChain::Part& part, const FacetHeights& heights,
+                     double window_m) {
+  std::vector<double> d_m, u_m;
+  double place_m = 0.0;
+  for (std::size_t i = part.first_point; i < part.first_point + part.points; ++i) {
+    if (i > part.first_point) {
+      const Eigen::Vector3d step_m = heights.p_mesh_m[i] - heights.p_mesh_m[i - 1];
+      const double up_m = heights.normal[i].dot(step_m);
+      place_m += chain.begins[i] != 0 ? window_m : std::sqrt(std::max(0.0, step_m.squaredNorm() - up_m * up_m));
+    }
+    if (heights.usable[i] == 0) continue;
+    d_m.push_back(heights.d_m[i]);
+    u_m.push_back(place_m);
+  }
+  return measure_relief_level(d_m, u_m, window_m);
+}
+
 // Levinson's and Durbin's recursion.
 Whitening from_autocovariance(const std::vector<double>& r, std::size_t order) {
   Whitening out;
   out.variance_m2 = r[0];
-  out.relief_m = std::sqrt(r[0]);
   for (std::size_t m = 1; m <= order && out.variance_m2 > 0.0; ++m) {
     double sum = r[m];
     for (std::size_t k = 1; k < m; ++k) sum += out.a[k - 1] * r[m - k];
@@ -79,7 +96,8 @@ std::vector<Whitening> make_whitenings(const PathChain& chain, const FacetHeight
   const std::vector<double> d_m = without_long_waves(chain, heights, smooth);
   std::vector<Whitening> out;
   for (const PathChain::Part& part : chain.parts) {
-    out.push_back(from_autocovariance(autocovariance(chain, part, heights, d_m, order), order));
+    Whitening& filter = out.emplace_back(from_autocovariance(autocovariance(chain, part, heights, d_m, order), order));
+    filter.level = level_of(chain, part, heights, static_cast<double>(2 * smooth + 1) * chain.spacing_m);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "path_chain.h"
+#include "relief_level.h"
 
 namespace asperity::registration {
 
@@ -10,7 +11,7 @@ namespace asperity::registration {
 struct Whitening {
   std::vector<double> a;  // a[k - 1] is a_k
   double variance_m2 = 0.0;
-  double relief_m = 0.0;  // RMS of the heights without their long waves
+  ReliefLevel level;  // of the heights without their long waves
 };
 
 // Yule–Walker from the heights' autocovariance over unbroken stretches, with Parzen's window, which keeps it
