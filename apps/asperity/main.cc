@@ -1,6 +1,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "command.h"
 #include "command_examples.h"
 #include "commands.h"
+#include "explain_code.h"
 #include "manual_page.h"
 #include "progress_line.h"
 #include "shell_completion.h"
@@ -106,7 +108,7 @@ std::string welcome() {
          "  asperity demo -o out     measure two simulated surfaces and compare them with the truth (seconds)\n"
          "  asperity import --help   begin with your own data: motion capture and an inertial sensor, or a table\n"
          "  asperity studio          scan, process, align, paint and render in a browser\n\n"
-         "All commands: asperity --help. One of them: asperity help COMMAND.\n";
+         "All commands: asperity --help. One of them: asperity help COMMAND. A verdict: asperity help CODE.\n";
 }
 
 int parse_and_run(Program& program, int argc, char** argv) {
@@ -123,6 +125,10 @@ int parse_and_run(Program& program, int argc, char** argv) {
         break;
       }
       const Parser* below = parser->find(words[i]);
+      if (below == nullptr && i == 1) {
+        // "asperity help below_noise": a verdict's code.
+        if (const std::optional<std::string> explained = explain_code(words[i])) return print_text(*explained), kDone;
+      }
       if (below == nullptr)
         return usage(parser->unknown_word(words[i]), parser == &program.parser ? "" : parser->full_name());
       parser = below;

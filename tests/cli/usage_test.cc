@@ -46,6 +46,20 @@ TEST(Usage, TheStudioIsThereOrSaysWhyNot) {
   }
 }
 
+TEST(Usage, HelpOfACodeIsItsRowOfTroubleshooting) {
+  const Outcome verdict = run({"help", "below_noise"});
+  EXPECT_EQ(verdict.code, 0);
+  EXPECT_THAT(verdict.out, StartsWith("below_noise (invalid)\n"));
+  EXPECT_THAT(verdict.out, HasSubstr("What to do: "));
+  EXPECT_THAT(verdict.out, HasSubstr("docs/troubleshooting.md#below_noise\n"));
+  const Outcome code = run({"help", "exit-3"});
+  EXPECT_EQ(code.code, 0);
+  EXPECT_THAT(code.out, StartsWith("exit-3\n"));
+  const Outcome none = run({"help", "no_such_code"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.out, IsEmpty());
+}
+
 TEST(Usage, NamesReachTheTerminalEscaped) {
   const Outcome outcome = run({"roughness", "no\x1b[31mfile.txt", "--spacing", "1um"});
   EXPECT_EQ(outcome.code, 1);

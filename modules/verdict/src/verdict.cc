@@ -24,7 +24,8 @@ std::string verdict_text(const Verdict& verdict) {
 }
 
 std::string verdict_line(const Verdict& verdict) {
-  return std::string(kSeverityNames.at(static_cast<std::size_t>(verdict.severity))) + ": " + verdict_text(verdict);
+  return std::string(kSeverityNames.at(static_cast<std::size_t>(verdict.severity))) + ": " + verdict_text(verdict) +
+         " (asperity help " + verdict.code + ")";
 }
 
 std::string verdict_sentence(const Verdicts& verdicts) {

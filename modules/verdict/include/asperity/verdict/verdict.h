@@ -34,7 +34,7 @@ std::string_view verdict_word(const Verdicts& verdicts);
 // "message; remedy": one verdict in words, without its severity.
 std::string verdict_text(const Verdict& verdict);
 
-// "invalid: message; remedy": one verdict as a line for a person.
+// "invalid: message; remedy (asperity help CODE)": one verdict as a line for a person, and where it is explained.
 std::string verdict_line(const Verdict& verdict);
 
 // The whole list as one sentence: empty for a valid result, otherwise the word and the text of each verdict of that
