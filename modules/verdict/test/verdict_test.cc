@@ -34,7 +34,7 @@ TEST(Verdict, ASentenceNamesTheWorstOnly) {
   EXPECT_EQ(verdict_sentence({kKnown, kSoSo}), "limited: there is no roughness; scan longer");
   EXPECT_EQ(verdict_sentence({kSoSo, kBad, kKnown, kWorse}),
             "invalid: 30 % are clipped; scan slower. 8 of 9 rows are lost");
-  EXPECT_EQ(verdict_line(kWorse), "invalid: 8 of 9 rows are lost");
+  EXPECT_EQ(verdict_line(kWorse), "invalid: 8 of 9 rows are lost (asperity help rows_lost)");
 }
 
 TEST(Verdict, IsSortedAndNamed) {
