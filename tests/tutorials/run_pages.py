@@ -10,7 +10,8 @@ change the folder. Output and error output are compared together.
 
 In a page's output `…` stands for any text within a line, and a line that is `…` alone for any number of lines.
 `<!-- exit: N -->` on the line before a block states the exit code that its last command has; else every command ends
-with 0. --update writes the output as it is into the page, except where it matches already."""
+with 0. A block of any language behind the line `<!-- file: NAME -->` is written to the file NAME of the folder; with
+`lines: N` before the `-->` it must have fewer than N lines. --update writes the output as it is into the page, except where it matches already."""
 import argparse
 import difflib
 import os
@@ -21,6 +22,7 @@ import tempfile
 import time
 
 FENCE = re.compile(r"^( *)```console *$")
+FILE = re.compile(r"^<!-- file: ([\w.-]+)(?: lines: (\d+))? -->$")
 EXIT = re.compile(r"^ *<!-- exit: (\d+) -->$")
 
 
@@ -28,6 +30,22 @@ class Command:
     def __init__(self, line, text):
         self.line, self.text, self.output, self.exit = line, text, [], 0
         self.first = self.last = line  # of the output, in lines of the page from 0
+
+
+def files_of(lines):
+    """Blocks that the page calls files: name and text."""
+    found = {}
+    for at, line in enumerate(lines):
+        stated = FILE.match(line)
+        if not stated:
+            continue
+        if at + 1 == len(lines) or not lines[at + 1].startswith("```"):
+            raise SystemExit(f"line {at + 1}: no block follows the name of a file")
+        block = lines[at + 2:lines.index("```", at + 2)]
+        if stated.group(2) and len(block) >= int(stated.group(2)):
+            raise SystemExit(f"line {at + 1}: {stated.group(1)} has {len(block)} lines and not fewer than {stated.group(2)}")
+        found[stated.group(1)] = "\n".join(block) + "\n"
+    return found
 
 
 def commands_of(lines):
@@ -87,6 +105,14 @@ def run_page(page, options):
                        LD_LIBRARY_PATH=f"{build}/lib")
     failed, changes, mark = 0, [], "end-of-output-4711"
     with tempfile.TemporaryDirectory(prefix="asperity-page-") as folder, tempfile.TemporaryDirectory() as links:
+        if any("cmake " in command.text for command in commands):  # find_package needs an installation
+            for component in ("feel", "dev"):
+                subprocess.run(["cmake", "--install", build, "--component", component, "--prefix", f"{links}/installed"],
+                               stdout=subprocess.DEVNULL, check=True)
+            environment["CMAKE_PREFIX_PATH"] = f"{links}/installed"
+        for name, text in files_of(lines).items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
         os.symlink(options.python, os.path.join(links, "python3"))
         environment["PATH"] = f"{options.bin}:{links}:{os.environ['PATH']}"
         shell = subprocess.Popen(["bash", "--norc", "--noprofile"], cwd=folder, env=environment, stdin=subprocess.PIPE,
