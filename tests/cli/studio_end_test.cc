@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "asperity/base/csv.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/web/assets.h"
 #include "run_asperity.h"
@@ -17,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class StudioEnd : public testing::Test {
  protected:
@@ -62,6 +64,30 @@ TEST_F(StudioEnd, EditsThatCannotBeSavedAreToldAndEndWithOne) {
   EXPECT_EQ(outcome.code, 1) << outcome.err;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("last changes of the project could not be saved"),
                                  HasSubstr(document_.string() + ": cannot be")));
+}
+
+// A run whose log is being written: no file can be put in the place of a folder.
+TEST_F(StudioEnd, ALogThatCannotBeStoredIsToldAndEndsWithOne) {
+  write_text(project_ / "plate.obj", "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nf 1 2 3\n");
+  const Outcome outcome = with_window([this](StudioWindow& window) {
+    window.edit("/feel/scene", "plate.obj");
+    window.keep_lease();
+    window.call("feel.start");
+    window.call("feel.log", {{"on", true}});
+    fs::create_directory(project_ / "feel.csv");
+  });
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("the log feel.csv is lost: " + (project_ / "feel.csv").string() + ": cannot be written"),
+                    Not(HasSubstr("could not be saved"))));
+}
+
+TEST_F(StudioEnd, ADamagedDocumentIsRenamedAndTold) {
+  write_text(document_, "{");
+  const Outcome outcome = with_window([](StudioWindow& window) { window.edit("/feel/max_force_N", 1.5); });
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("was renamed to .asperity-studio.json.unreadable: "));
+  EXPECT_EQ(read_file(document_.string() + ".unreadable", 100), "{");
 }
 
 TEST_F(StudioEnd, ADocumentThatCannotBeReadIsRefusedAtTheStart) {

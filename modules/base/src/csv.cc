@@ -1,8 +1,10 @@
 #include "asperity/base/csv.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include "asperity/base/error.h"
@@ -13,7 +15,8 @@ namespace asperity {
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (error || !std::filesystem::exists(status)) throw Error(path.string() + ": no such file");
+  if (status.type() == std::filesystem::file_type::not_found) throw Error(path.string() + ": no such file");
+  if (error) throw Error(path.string() + ": cannot be looked up: " + error.message());
   if (!std::filesystem::is_regular_file(status)) throw Error(path.string() + ": not a regular file");
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw Error(path.string() + ": " + error.message());
@@ -22,10 +25,10 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
                 std::to_string(limit_bytes));
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path.string() + ": cannot be opened");
+  if (!file) throw Error(path.string() + ": cannot be opened: " + std::strerror(errno));
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
-  if (file.bad()) throw Error(path.string() + ": cannot be read");
+  if (file.bad()) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }

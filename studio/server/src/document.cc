@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/studio/calls.h"
 #include "json_pointer.h"
+#include "put_aside.h"
 #include "server_limits.h"
 
 namespace asperity::studio {
@@ -114,92 +115,95 @@ void Document::add_section(const std::string& name, Json first, Validator valida
 
 namespace {
 
-// A name beside `file` that nothing has: FILE.unreadable, FILE.unreadable_2, ….
-std::filesystem::path free_name_beside(const std::filesystem::path& file, const std::string& ending) {
-  constexpr int kMost = 10'000;
-  for (int i = 1; i < kMost; ++i) {
-    std::filesystem::path name = file;
-    name += ending + (i > 1 ? "_" + std::to_string(i) : std::string());
-    std::error_code error;
-    if (std::filesystem::symlink_status(name, error).type() == std::filesystem::file_type::not_found) return name;
-  }
-  throw Error(file.string() + ending + ": there are too many of them");
+// What cannot be read, or kept under another name, would be replaced by the first edit's save.
+[[noreturn]] void refuse_to_start(const std::string& why) {
+  throw Error(why + "; the studio does not start, because its next save would replace this file");
 }
 
-// What cannot be kept under another name would be replaced by the first edit's save, so the studio does not start.
-[[noreturn]] void refuse_to_start(const std::filesystem::path& file, const std::string& why) {
-  throw Error(file.string() + ": " + why +
-              "; the studio does not start, because its next save would replace this file");
+// Nothing if there is no file.
+std::optional<std::string> content_of(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_type type = std::filesystem::symlink_status(file, error).type();
+  if (type == std::filesystem::file_type::not_found) return std::nullopt;
+  const bool is_link = type == std::filesystem::file_type::symlink;
+  if (is_link && std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found) {
+    refuse_to_start(file.string() + ": is a link to a file that does not exist");
+  }
+  try {
+    return read_file(file, kLargestFile);
+  } catch (const Error& fault) {
+    refuse_to_start(fault.what());
+  }
 }
 
 }  // namespace
 
 void Document::load() {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file_, error);
-  if (status.type() == std::filesystem::file_type::not_found) return;
-  if (!std::filesystem::status_known(status)) refuse_to_start(file_, "cannot be looked at: " + error.message());
-  std::string content;
+  const std::optional<std::string> content = content_of(file_);
+  if (!content) return;
+  const std::string name = printable(file_.filename().string());
   try {
-    content = read_file(file_, kLargestFile);
-    if (read(content)) return;
+    if (read(*content)) return;
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the file
   } catch (const std::exception& fault) {
-    for (const auto& [name, first] : first_) value_[name] = first;
+    for (const auto& [section, first] : first_) value_[section] = first;
+    unknown_ = Json::object();
     undo_.clear();
     redo_.clear();
-    const std::filesystem::path aside = free_name_beside(file_, ".unreadable");
-    std::filesystem::rename(file_, aside, error);
-    if (error) {
-      refuse_to_start(file_,
-                      std::string("cannot be read: ") + fault.what() + ", and cannot be renamed: " + error.message());
+    try {
+      const std::string aside = printable(put_aside(file_).filename().string());
+      problems_.push_back(name + " could not be read and was renamed to " + aside + ": " +
+                          printable(fault.what(), 300));
+    } catch (const Error& error) {
+      refuse_to_start(file_.string() + ": cannot be read: " + printable(fault.what(), 300) + ", and " + error.what());
     }
-    problems_.push_back(printable(file_.filename().string()) + " could not be read and was renamed to " +
-                        printable(aside.filename().string()) + ": " + printable(fault.what(), 300));
     return;
   }
-  // What its page did not take, and all steps, are in a copy: the next save has them no more.
-  const std::filesystem::path copy = free_name_beside(file_, ".before");
+  // What its page did not take, and the steps, are in a copy: the next save has them no more.
   try {
-    write_file(copy, content);
-  } catch (const Error& fault) {
-    refuse_to_start(file_, std::string("a part of it cannot be used, and no copy can be made: ") + fault.what());
+    const std::string copy = printable(keep_copy(file_, *content).filename().string());
+    problems_.push_back("the former " + name + " is kept as " + copy);
+  } catch (const Error& error) {
+    refuse_to_start(file_.string() + ": cannot be used as a whole (" + problems_.back() +
+                    "), and no copy can be made: " + error.what());
   }
-  problems_.push_back("the file as it was is kept as " + printable(copy.filename().string()));
 }
 
 bool Document::read(std::string_view text) {
   const Json file = parse_json(text, file_.filename().string(), file_limits());
   if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("has another version");
-  bool whole = true;
-  for (const auto& [name, first] : first_) {
-    const Json* found = file.at("document").find(name);
-    if (found == nullptr) continue;
+  bool is_whole = true;
+  for (const auto& [name, found] : file.at("document").items()) {
+    if (!first_.contains(name)) {
+      unknown_[name] = found;
+      continue;
+    }
     try {
-      Json section = *found;
+      Json section = found;
       if (updaters_.at(name)) updaters_.at(name)(section);
       validators_.at(name)(section);
       value_[name] = std::move(section);
     } catch (const std::exception& fault) {
-      whole = false;
+      is_whole = false;
       problems_.push_back("the page '" + name + "' starts with its defaults: " + printable(fault.what(), 300));
     }
   }
-  if (whole) read_steps(file);
-  return whole;
+  return is_whole && read_steps(file);
 }
 
 const Json& Document::section(std::string_view name) const { return value_.at(std::string(name)); }
 
-void Document::read_steps(const Json& file) {
+bool Document::read_steps(const Json& file) {
   try {
     for (Edit& edit : edits_of(file.at("redo"))) redo_.push_back({edit, size_of(edit)});
     for (Edit& edit : edits_of(file.at("undo"))) remember(std::move(edit));
-  } catch (const std::exception&) {
+    return true;
+  } catch (const std::exception& fault) {
     undo_.clear();
     redo_.clear();
-    problems_.push_back("earlier steps cannot be undone any more");
+    problems_.push_back(std::string("earlier steps cannot be undone any more: ") + printable(fault.what(), 300));
+    return false;
   }
 }
 
@@ -295,12 +299,14 @@ std::optional<std::string> Document::take_unsaved() {
   file["format"] = "asperity-studio";
   file["version"] = 1;
   file["document"] = value_;
+  file["document"].update(unknown_);
   file["undo"] = Json::array();
   file["redo"] = Json::array();
   for (const Step& step : undo_) file["undo"].push_back(json_of(step.edit));
   for (const Step& step : redo_) file["redo"].push_back(json_of(step.edit));
-  unsaved_ = false;
-  return file.dump_repaired() + "\n";
+  std::string content = file.dump_repaired() + "\n";
+  unsaved_ = false;  // not before all that can fail
+  return content;
 }
 
 }  // namespace asperity::studio

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ namespace {
 struct Job {
   std::uint64_t id = 0;
   std::string title, slot;
+  std::string loss;  // empty: it stores nothing that cannot be made again
   Jobs::Work work;
   Jobs::Done done;
   std::atomic<bool> cancelled{false};
@@ -24,10 +26,50 @@ struct Job {
 
 std::string lane_of(const std::string& slot) { return slot.substr(0, slot.find_first_of(". ")); }
 
+// Why a job failed; nothing if it was cancelled.
+std::optional<std::string> reason_of(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return std::nullopt;
+  } catch (const std::exception& fault) {
+    return fault.what();
+  } catch (...) {
+    return "unknown error";
+  }
+}
+
+// What jobs could not store, until a browser could be told. Thread-safe.
+class UnstatedLosses {
+ public:
+  void add(const Job& job, const std::exception_ptr& error) {
+    if (job.loss.empty() || !error) return;
+    const std::optional<std::string> reason = reason_of(error);
+    const std::lock_guard lock(mutex_);
+    if (reason) sentences_[job.id] = job.loss + ": " + *reason;
+  }
+  void remove(const Job& job) {
+    const std::lock_guard lock(mutex_);
+    sentences_.erase(job.id);
+  }
+  std::vector<std::string> take() {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::string> out;
+    for (const auto& [id, sentence] : std::exchange(sentences_, {})) out.push_back(sentence);
+    return out;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::uint64_t, std::string> sentences_;
+};
+
 // The states of all jobs under way, told to the browsers as they change. Thread-safe.
 class Board {
  public:
   explicit Board(Hub& hub) : hub_(hub) {}
+
+  UnstatedLosses losses;
 
   void send_progress(const Job& job, std::string_view stage, double fraction, std::string_view state,
                      const Json& fault = {}) {
@@ -113,16 +155,23 @@ class Lane {
  public:
   Lane(Board& board, const Jobs::Post& post) : board_(board), post_(post), thread_([this] { run(); }) {}
   ~Lane() {
-    {
-      const std::lock_guard lock(mutex_);
-      ending_ = true;
-      if (running_) running_->cancelled = true;
-    }
-    woken_.notify_all();
+    end();
     thread_.join();
   }
   Lane(const Lane&) = delete;
   Lane& operator=(const Lane&) = delete;
+
+  // Does not wait. What stores is still done.
+  void end() {
+    std::vector<std::shared_ptr<Job>> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      if (running_ && running_->loss.empty()) running_->cancelled = true;
+      dropped = take_waiting([](const Job& job) { return job.loss.empty(); });
+    }
+    woken_.notify_all();
+  }
 
   void add(const std::shared_ptr<Job>& job) {
     std::vector<std::shared_ptr<Job>> dropped;
@@ -177,7 +226,7 @@ class Lane {
         std::unique_lock lock(mutex_);
         running_.reset();
         woken_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
-        if (ending_) return;
+        if (waiting_.empty()) return;
         job = waiting_.front();
         waiting_.pop_front();
         running_ = job;
@@ -189,8 +238,10 @@ class Lane {
   // What the work holds is let go on the studio's thread, where it was made. Its end is told when what it did can be
   // seen.
   void finish(const std::shared_ptr<Job>& job, std::exception_ptr error) {
+    board_.losses.add(*job, error);
     post_([board = &board_, job, error] {
       if (job->done) job->done(error);
+      board->losses.remove(*job);
       job->work = nullptr;
       job->done = nullptr;
       send_end(*board, *job, error);
@@ -214,12 +265,26 @@ struct Jobs::Impl {
   Post post;
   std::map<std::string, Lane> lanes;
   std::uint64_t last_id = 0;
+  bool is_closed = false;
 
   Impl(Hub& hub, Post its_post) : board(hub), post(std::move(its_post)) {}
+
+  std::uint64_t start(const std::string& lane, const std::shared_ptr<Job>& job) {
+    job->id = ++last_id;
+    if (!is_closed) lanes.try_emplace(lane, board, post).first->second.add(job);
+    return job->id;
+  }
 };
 
 Jobs::Jobs(Hub& hub, Post post) : impl_(std::make_unique<Impl>(hub, std::move(post))) {}
-Jobs::~Jobs() = default;
+Jobs::~Jobs() { close(); }
+
+std::vector<std::string> Jobs::close() {
+  impl_->is_closed = true;
+  for (auto& [name, lane] : impl_->lanes) lane.end();
+  impl_->lanes.clear();
+  return impl_->board.losses.take();
+}
 
 std::uint64_t Jobs::start(const std::string& title, const std::string& slot, Work work, Done done) {
   return start_in(lane_of(slot), title, slot, std::move(work), std::move(done));
@@ -228,13 +293,21 @@ std::uint64_t Jobs::start(const std::string& title, const std::string& slot, Wor
 std::uint64_t Jobs::start_in(const std::string& lane, const std::string& title, const std::string& slot, Work work,
                              Done done) {
   auto job = std::make_shared<Job>();
-  job->id = ++impl_->last_id;
   job->title = title;
   job->slot = slot;
   job->work = std::move(work);
   job->done = std::move(done);
-  impl_->lanes.try_emplace(lane, impl_->board, impl_->post).first->second.add(job);
-  return job->id;
+  return impl_->start(lane, job);
+}
+
+std::uint64_t Jobs::start_storing(const std::string& lane, const std::string& title, const std::string& loss, Work work,
+                                  Done done) {
+  auto job = std::make_shared<Job>();
+  job->title = title;
+  job->loss = loss;
+  job->work = std::move(work);
+  job->done = std::move(done);
+  return impl_->start(lane, job);
 }
 
 void Jobs::cancel(std::uint64_t id) {

@@ -69,6 +69,14 @@ void list_folder(const fs::path& folder, const std::string& prefix, int depth, s
 
 }  // namespace
 
+bool is_taken(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::status_known(status))
+    throw Error(printable(path.string(), 200) + ": cannot be looked up: " + error.message());
+  return fs::exists(status);
+}
+
 Project::Project(fs::path folder) {
   std::error_code error;
   folder_ = fs::canonical(folder, error);
@@ -111,10 +119,8 @@ fs::path Project::writable(const std::string& name) const {
 }
 
 std::string Project::free_name(const std::string& stem, const std::string& extension) const {
-  std::error_code error;
   std::string name = stem + extension;
-  for (int i = 2; fs::exists(fs::symlink_status(folder_ / name, error)); ++i)
-    name = stem + "_" + std::to_string(i) + extension;
+  for (int i = 2; is_taken(folder_ / name); ++i) name = stem + "_" + std::to_string(i) + extension;
   return name;
 }
 

@@ -13,6 +13,7 @@
 #include "file_saver.h"
 #include "folder_lock.h"
 #include "inbox.h"
+#include "losses.h"
 #include "pages.h"
 
 namespace asperity::studio {
@@ -44,6 +45,7 @@ class Studio {
         pages_(make_pages(shared_, config.open)),
         saver_(document_.file(),
                [this](std::string fault) { inbox_.post([this, fault = std::move(fault)] { cannot_save(fault); }); }) {
+    shared_.report_loss = [this](const std::string& sentence) { losses_.add(sentence); };
     shared_.check_edit = [this](ClientId client, const Edit& edit) {
       for (const auto& page : pages_) page->check_edit(client, edit);
     };
@@ -51,6 +53,7 @@ class Studio {
     jobs_->bind(calls_);
     bind_sessions(calls_, *server_);
     document_.load();
+    for (const std::string& problem : document_.problems()) notice(problem);
     document_.on_change([this](const Edit& edit) {
       for (const auto& page : pages_) page->edited(edit);
     });
@@ -67,26 +70,23 @@ class Studio {
 
   std::string address() const { return server_->address(); }
 
-  // Sensors closed and forces at zero first; then nothing that still waits may run, for its pages are going. What could
-  // not be stored, in sentences; the second call has none.
+  // What browsers have sent by now is done, and forces are at zero; then all is stored. Nothing that still waits may
+  // run afterwards, for its pages are going. What could not be stored, in sentences; the second call has none.
   std::vector<std::string> close() noexcept {
-    std::vector<std::string> lost;
-    if (std::exchange(closed_, true)) return lost;
+    if (std::exchange(closed_, true)) return {};
     control_.reset();
-    for (const auto& page : pages_) {
-      try {
-        page->stop();
-      } catch (const std::exception& fault) {
-        lost.emplace_back(fault.what());
-      }
-    }
-    jobs_.reset();
+    for (const Inbox::Work& work : inbox_.wait(Clock::now())) guarded(work);
+    for (const auto& page : pages_) losses_.attempt("a page could not be ended", [&] { page->stop(); });
+    guarded([this] { save(); });  // before what may take longer: a second signal ends the program at once
+    losses_.attempt("the jobs could not be ended", [this] {
+      for (const std::string& lost : jobs_->close()) losses_.add(lost);
+    });
     inbox_.close();
-    server_->stop();
-    guarded([this] { save(); });
-    if (const std::string fault = saver_.finish(); !fault.empty())
-      lost.push_back("the last changes of the project could not be saved: " + fault);
-    return lost;
+    losses_.attempt("the server could not be ended", [this] { server_->stop(); });
+    constexpr const char* kUnsaved = "the last changes of the project could not be saved";
+    losses_.attempt(kUnsaved, [this] { save(); });
+    if (const std::string fault = saver_.finish(); !fault.empty()) losses_.add(kUnsaved, fault);
+    return losses_.take();
   }
 
   void run(const std::atomic<bool>& stop) {
@@ -184,6 +184,7 @@ class Studio {
   }
 
   StudioConfig config_;
+  Losses losses_;
   Inbox inbox_;
   Project project_;
   FolderLock lock_{project_.folder()};

@@ -10,8 +10,7 @@ std::filesystem::path write_target(const Project& project, const Request& reques
   const std::string name = request.text("name");
   std::filesystem::path target = project.writable(name);
   const bool replace = request.has("replace") && request.flag("replace");
-  std::error_code error;
-  if (!replace && std::filesystem::exists(std::filesystem::symlink_status(target, error))) {
+  if (!replace && is_taken(target)) {
     const std::size_t ending = std::min(name.find('.', 1), name.size());
     throw Advice(printable(name, 200) + ": exists already",
                  "Choose another name, such as " + project.free_name(name.substr(0, ending), name.substr(ending)) +

@@ -2,11 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <unistd.h>
 #include <fstream>
-#include <iterator>
-#include <set>
 #include <string>
+#include <vector>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/json/parse_json.h"
@@ -16,6 +17,17 @@
 
 namespace asperity::studio {
 namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// A document whose section refuse_negative refuses.
+constexpr const char* kNegative =
+    R"({"format":"asperity-studio","version":1,"document":{"page":{"a":-5}},"undo":[],"redo":[]})";
+
+std::string text_of(const std::filesystem::path& file) { return read_file(file, 1 << 20); }
 
 void refuse_negative(const Json& section) {
   if (section.at("a").get<double>() < 0) throw Error("a is negative");
@@ -30,6 +42,8 @@ std::unique_ptr<Document> make_document(const std::filesystem::path& file) {
 
 class DocumentTest : public ::testing::Test {
  protected:
+  std::filesystem::path beside(const std::string& ending) const { return file_.string() + ending; }
+
   testkit::TempDir folder_;
   std::filesystem::path file_ = folder_.path() / ".asperity-studio.json";
   std::unique_ptr<Document> document_ = make_document(file_);
@@ -104,45 +118,120 @@ TEST_F(DocumentTest, IsThereAgainWithItsSteps) {
 }
 
 TEST_F(DocumentTest, DamagedFilesArePutAsideEachUnderANameOfItsOwn) {
-  std::set<std::string> kept;
-  for (const std::string& content : {std::string("{\"format\":"), std::string(100'000, '['), std::string("7"),
-                                     std::string(R"({"format":"asperity-studio","version":2})")}) {
-    std::ofstream(file_) << content;
+  const std::vector<std::string> damaged{"{\"format\":", std::string(100'000, '['), "7",
+                                         R"({"format":"asperity-studio","version":2})",
+                                         R"({"format":"asperity-studio","version":1,"document":7})"};
+  for (std::size_t i = 0; i < damaged.size(); ++i) {
+    std::ofstream(file_) << damaged[i];
     const auto again = make_document(file_);
     EXPECT_EQ(again->value(), first_);
-    EXPECT_EQ(again->problems().size(), 1U);
+    const std::string ending = i == 0 ? ".unreadable" : ".unreadable_" + std::to_string(i + 1);
+    const std::string name = beside(ending).filename().string();
+    EXPECT_THAT(again->problems(), ElementsAre(HasSubstr("was renamed to " + name + ": ")));
     EXPECT_FALSE(std::filesystem::exists(file_));
-    const std::string aside = kept.empty() ? ".unreadable" : ".unreadable_" + std::to_string(kept.size() + 1);
-    std::ifstream stream(file_.string() + aside, std::ios::binary);
-    const std::string found((std::istreambuf_iterator<char>(stream)), {});
-    EXPECT_EQ(found, content);
-    EXPECT_THAT(again->problems().front(), testing::HasSubstr(aside));
-    kept.insert(aside);
+    EXPECT_EQ(text_of(beside(ending)), damaged[i]);
   }
+  EXPECT_EQ(text_of(beside(".unreadable")), damaged[0]);
 }
 
-// The next save has neither that section nor the steps.
-TEST_F(DocumentTest, OfAFileWithASectionThatIsNotTakenACopyIsKept) {
-  const std::string content = R"({"format":"asperity-studio","version":1,"document":{"page":7},"undo":[],"redo":[]})";
+// The next save has neither that section nor the steps. A second start of the same file adds no second copy.
+TEST_F(DocumentTest, OfAFileWithASectionThatIsNotTakenOneCopyIsKept) {
+  std::ofstream(file_) << kNegative;
+  const std::string copy = beside(".before").filename().string();
+  for (int start = 0; start < 3; ++start) {
+    const auto again = make_document(file_);
+    EXPECT_EQ(again->value(), first_);
+    EXPECT_THAT(again->problems(), ElementsAre(HasSubstr("'page' starts with its defaults: a is negative"),
+                                               HasSubstr("is kept as " + copy)));
+    EXPECT_EQ(text_of(file_), kNegative);
+  }
+  EXPECT_EQ(text_of(beside(".before")), kNegative);
+  EXPECT_FALSE(std::filesystem::exists(beside(".before_2")));
+}
+
+TEST_F(DocumentTest, AnotherContentIsCopiedBesideTheFirst) {
+  std::ofstream(file_) << kNegative;
+  make_document(file_);
+  std::ofstream(file_) << kNegative << '\n';
+  make_document(file_);
+  std::ofstream(file_) << kNegative;
+  make_document(file_);
+  EXPECT_EQ(text_of(beside(".before")), kNegative);
+  EXPECT_EQ(text_of(beside(".before_2")), std::string(kNegative) + "\n");
+  EXPECT_FALSE(std::filesystem::exists(beside(".before_3")));
+}
+
+TEST_F(DocumentTest, OfAFileWithStepsThatCannotBeReadACopyIsKept) {
+  const std::string content =
+      R"({"format":"asperity-studio","version":1,"document":{"page":{"a":5}},"undo":[{"path":7}],"redo":[]})";
   std::ofstream(file_) << content;
   const auto again = make_document(file_);
-  EXPECT_EQ(again->value(), first_);
-  ASSERT_EQ(again->problems().size(), 2U);
-  EXPECT_THAT(again->problems().back(), testing::HasSubstr(".before"));
-  std::ifstream stream(file_.string() + ".before", std::ios::binary);
-  EXPECT_EQ(std::string((std::istreambuf_iterator<char>(stream)), {}), content);
-  EXPECT_TRUE(std::filesystem::exists(file_));
+  EXPECT_EQ(again->value()["page"]["a"], 5);
+  EXPECT_THAT(again->problems(), ElementsAre(HasSubstr("earlier steps cannot be undone any more: "),
+                                             HasSubstr("is kept as " + beside(".before").filename().string())));
+  EXPECT_EQ(text_of(beside(".before")), content);
 }
 
-TEST_F(DocumentTest, AFileThatCannotBeLookedAtIsNotTakenForNone) {
-  std::filesystem::create_symlink(file_.filename(), file_);  // a loop: ELOOP, as EIO or EACCES would be
-  try {
-    make_document(file_);
-    ADD_FAILURE() << "the first save would replace it";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("the studio does not start"));
+// Of a newer version, for example.
+TEST_F(DocumentTest, SectionsThatNoPageHasAreKept) {
+  const Json newer = parse_json(R"({"b":[1,{"c":"d"}],"e":null})");
+  std::ofstream(file_) << R"({"format":"asperity-studio","version":1,"document":{"newer":)" << newer.dump()
+                       << R"(,"page":{"a":5}},"undo":[],"redo":[]})";
+  for (int a = 6; a < 8; ++a) {
+    const auto again = make_document(file_);
+    EXPECT_THAT(again->problems(), testing::IsEmpty());
+    EXPECT_FALSE(again->value().contains("newer"));
+    EXPECT_THROW(again->edit("/newer/b", 2, "not of this version"), Error);
+    again->edit("/page/a", a, "a change");
+    write_file(file_, *again->take_unsaved());
+    const Json saved = parse_json(text_of(file_)).at("document");
+    EXPECT_EQ(saved.at("newer"), newer);
+    EXPECT_EQ(saved.at("page").at("a"), a);
   }
+}
+
+// A loop, which fails as EIO or EACCES would, a link to a disk that is not there, and what is no file.
+TEST_F(DocumentTest, AFileThatCannotBeReadIsRefusedAndUntouched) {
+  const auto refusal = [](const std::string& why) {
+    return ThrowsMessage<Error>(AllOf(HasSubstr(why), HasSubstr("the studio does not start")));
+  };
+  std::filesystem::create_symlink(file_.filename(), file_);
+  EXPECT_THAT([this] { make_document(file_); },
+              refusal(file_.string() + ": cannot be looked up: Too many levels of symbolic links"));
   EXPECT_TRUE(std::filesystem::is_symlink(file_));
+  std::filesystem::remove(file_);
+  std::filesystem::create_symlink("none", file_);
+  EXPECT_THAT([this] { make_document(file_); }, refusal(file_.string() + ": is a link to a file that does not exist"));
+  EXPECT_TRUE(std::filesystem::is_symlink(file_));
+  std::filesystem::remove(file_);
+  std::filesystem::create_directory(file_);
+  EXPECT_THAT([this] { make_document(file_); }, refusal(file_.string() + ": not a regular file"));
+  EXPECT_TRUE(std::filesystem::is_directory(file_));
+  EXPECT_FALSE(std::filesystem::exists(beside(".unreadable")));
+}
+
+// The disk gives no permission; root needs none.
+TEST_F(DocumentTest, AFileWithoutPermissionIsRefusedAndUntouched) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads every file";
+  std::ofstream(file_) << kNegative;
+  std::filesystem::permissions(file_, std::filesystem::perms::none);
+  EXPECT_THAT([this] { make_document(file_); },
+              ThrowsMessage<Error>(HasSubstr(file_.string() + ": cannot be opened: Permission denied")));
+  std::filesystem::permissions(file_, std::filesystem::perms::owner_all);
+  EXPECT_EQ(text_of(file_), kNegative);
+}
+
+// Its name leaves no room for another ending: the first look-up fails, and its reason is stated.
+TEST_F(DocumentTest, AFileThatCannotBeKeptIsRefusedAndUntouched) {
+  const std::filesystem::path file = folder_ / std::string(250, 'n');
+  for (const char* content : {"7", kNegative}) {
+    std::ofstream(file) << content;
+    EXPECT_THAT([&] { make_document(file); },
+                ThrowsMessage<Error>(AllOf(HasSubstr(file.string() + ": cannot be "),
+                                           HasSubstr("cannot be looked up: File name too long"),
+                                           HasSubstr("the studio does not start"))));
+    EXPECT_EQ(text_of(file), content);
+  }
 }
 
 TEST_F(DocumentTest, LongPathsAndLabelsAreRefusedAtOnce) {
@@ -225,14 +314,6 @@ TEST_F(DocumentTest, SettingsOfAnOlderVersionGetTheirPresentNames) {
   EXPECT_EQ(reopen_with(R"({"order":"3","cutoff_hz":"5"})"), parse_json(R"({"order":"3","cutoff_Hz":"5"})"));
   EXPECT_EQ(reopen_with(R"({"cutoff_Hz":"6","cutoff_hz":"5"})"), parse_json(R"({"cutoff_Hz":"6"})"));
   EXPECT_EQ(reopen_with(R"([1])"), parse_json("[1]"));
-}
-
-TEST_F(DocumentTest, ASectionThatItsPageRefusesBeginsAnew) {
-  std::ofstream(file_)
-      << R"({"format":"asperity-studio","version":1,"document":{"page":{"a":-5}},"undo":[],"redo":[]})";
-  const auto again = make_document(file_);
-  EXPECT_EQ(again->value(), first_);
-  EXPECT_EQ(again->problems().size(), 2U);  // and where the file as it was is kept
 }
 
 }  // namespace

@@ -100,11 +100,11 @@ class FeelRig : public PageRig<FeelHub> {
  public:
   static constexpr ClientId kOwner = kClient;
 
-  explicit FeelRig(bool may_command_forces = true) {
+  explicit FeelRig(bool may_command_forces = true, const FeelConfig& start = config()) {
     write_height_maps(folder.path());
     write_plate(folder / "plate.obj");
     shared.may_command_forces = may_command_forces;
-    open(std::make_unique<FeelPage>(shared, config()));
+    open(std::make_unique<FeelPage>(shared, start));
   }
 
   // What a loaded machine may take; the servo's own clock is not asked for anything here.

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "asperity/base/error.h"
 #include "fake_hub.h"
 #include "inbox.h"
 
@@ -108,6 +111,45 @@ TEST_F(JobsTest, NoMoreThanSoManyWait) {
   EXPECT_EQ(wait_for(id - 1).result, 1);
   answer_by_job(jobs_, request(id), "", "", work);
   EXPECT_EQ(wait_for(id).result, 1);
+}
+
+// Ends what runs and drops what waits, but not what stores.
+TEST_F(JobsTest, TheEndWaitsForWhatStores) {
+  std::atomic<bool> started{false};
+  const auto until_cancelled = [&](const Observer& observer) {
+    started = true;
+    for (;;) observer.update("turning", 0.5);
+  };
+  std::vector<std::string> done;  // by the lane's thread, which has ended before it is read
+  jobs_.start_in("lane", "", "", until_cancelled, nullptr);
+  while (!started) std::this_thread::yield();
+  jobs_.start_storing(
+      "lane", "", "the first is lost", [&](const Observer&) { done.emplace_back("first"); }, nullptr);
+  jobs_.start_in(
+      "lane", "", "", [&](const Observer&) { done.emplace_back("not stored"); }, nullptr);
+  const auto stores = [&](const Observer& observer) {
+    observer.update("storing", 0.5);  // is not cancelled
+    done.emplace_back("second");
+  };
+  jobs_.start_storing("lane", "", "the second is lost", stores, nullptr);
+  EXPECT_THAT(jobs_.close(), testing::IsEmpty());
+  EXPECT_THAT(done, testing::ElementsAre("first", "second"));
+  EXPECT_THAT(jobs_.close(), testing::IsEmpty());
+}
+
+// Nobody is there to whom its `done` could state it.
+TEST_F(JobsTest, TheEndStatesWhatCouldNotBeStored) {
+  const auto fails = [](const Observer&) { throw Error("x.csv: cannot be written: the disk is full"); };
+  bool is_told = false;
+  jobs_.start_storing("lane", "", "the first is lost", fails,
+                      [&](std::exception_ptr error) { is_told = error != nullptr; });
+  const auto end = std::chrono::steady_clock::now() + 60s;
+  while (!is_told && std::chrono::steady_clock::now() < end) {
+    for (const auto& work : inbox_.wait(end)) work();
+  }
+  ASSERT_TRUE(is_told);
+  jobs_.start_storing("lane", "", "the second is lost", fails, [](std::exception_ptr) { FAIL() << "after the end"; });
+  EXPECT_THAT(jobs_.close(), testing::ElementsAre("the second is lost: x.csv: cannot be written: the disk is full"));
 }
 
 }  // namespace

@@ -28,7 +28,6 @@ class FeelPage : public Page, public FeelHost {
   void edited(const Edit& edit) override;
   void check_edit(ClientId client, const Edit& edit) const override;
   void pointed(ClientId client, const Pointer& pointer) override;
-  // Throws Error naming a log that could not be stored.
   void stop() override;
 
   void visit(const Request& request, FeelVisit visit) override;
@@ -57,9 +56,10 @@ class FeelPage : public Page, public FeelHost {
   void ended();
   void set_log(const Request& request);
   void collect_logs();
+  void store_log(std::shared_ptr<FeelLog> log);
   void log_is_whole(const std::string& fault);
   bool belongs_to(ClientId client) const { return run_owner_ == client; }
-  void keep_flight_record(ServoResult servo);
+  void keep_flight_record(ServoResult& servo);
   void take(const Request& request);
   void permit(std::int64_t now_ns);
   void complain(std::exception_ptr error);

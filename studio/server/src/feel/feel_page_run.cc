@@ -37,6 +37,8 @@ Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
 
 constexpr const char* kFlightRecord = "asperity-feel.flight.csv";
 
+std::string lost_log(const std::string& name) { return "the log " + printable(name, 200) + " is lost"; }
+
 }  // namespace
 
 // What the job that opens a device hands over.
@@ -213,7 +215,7 @@ void FeelPage::ended() {
   state_ = State::kIdle;
   // Its heights and parts of the force would show which texture was touched.
   last_run_ = visited_ ? Json() : outcome_json(outcome, running_.config.feel.servo);
-  if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
+  keep_flight_record(outcome.servo);
   running_ = {};
   visited_ = false;
   if (choices().empty()) load();
@@ -221,10 +223,12 @@ void FeelPage::ended() {
   send_status();
 }
 
-void FeelPage::keep_flight_record(ServoResult servo) {
+// Of a run that a fault has ended.
+void FeelPage::keep_flight_record(ServoResult& servo) {
+  if (servo.end != ServoEnd::kFault) return;
   const auto ticks = std::make_shared<const std::vector<ServoTick>>(std::move(servo.last_ticks));
-  shared_.jobs.start_in(
-      "feel", "Saving the record before the fault", "",
+  shared_.jobs.start_storing(
+      "feel", "Saving the record before the fault", "the record of the time before the fault is lost",
       [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
         refuse_stranger(file, format_flight_record({}));
         write_flight_record(file, *ticks);
@@ -256,21 +260,21 @@ void FeelPage::set_log(const Request& request) {
 // Brings the logs that a run has done with to their files, which may take a while.
 void FeelPage::collect_logs() {
   for (FinishedLog& ended : finished_logs_->take()) {
-    if (!ended.log) {
-      log_is_whole(ended.fault);
-      continue;
-    }
-    shared_.jobs.start_in(
-        "feel", "Finishing the log", "", [log = ended.log](const Observer&) { log->commit(); },
-        [this](std::exception_ptr error) {
-          try {
-            if (error) std::rethrow_exception(error);
-            log_is_whole("");
-          } catch (const std::exception& fault) {
-            log_is_whole(fault.what());
-          }
-        });
+    ended.log ? store_log(std::move(ended.log)) : log_is_whole(ended.fault);
   }
+}
+
+void FeelPage::store_log(std::shared_ptr<FeelLog> log) {
+  shared_.jobs.start_storing(
+      "feel", "Finishing the log", lost_log(log_name_), [log = std::move(log)](const Observer&) { log->commit(); },
+      [this](std::exception_ptr error) {
+        try {
+          if (error) std::rethrow_exception(error);
+          log_is_whole("");
+        } catch (const std::exception& fault) {
+          log_is_whole(fault.what());
+        }
+      });
 }
 
 void FeelPage::log_is_whole(const std::string& fault) {
@@ -286,27 +290,21 @@ void FeelPage::log_is_whole(const std::string& fault) {
   send_status();
 }
 
+// Nothing is posted to this thread any more: what the run leaves is stored by jobs, for which the end waits.
 void FeelPage::stop() {
-  if (!run_) return;
-  run_->stop();
-  run_->take_outcome();
-  run_.reset();
-  state_ = State::kIdle;
-  // Nothing is brought to this thread any more.
-  std::string lost;
-  for (const FinishedLog& ended : finished_logs_->take()) {
-    try {
-      if (ended.log) {
-        ended.log->commit();
-      } else {
-        lost = ended.fault;
-      }
-    } catch (const std::exception& fault) {
-      lost = fault.what();
-    }
+  if (run_) {
+    run_->stop();
+    FeelOutcome outcome = run_->take_outcome();
+    run_.reset();
+    state_ = State::kIdle;
+    keep_flight_record(outcome.servo);
   }
-  // No browser is there any more: the studio's end states it.
-  if (!lost.empty()) throw Error("the log " + printable(log_name_, 200) + " is lost: " + lost);
+  for (FinishedLog& ended : finished_logs_->take()) {
+    if (!ended.log)
+      shared_.report_loss(lost_log(log_name_) + ": " + ended.fault);
+    else
+      store_log(std::move(ended.log));
+  }
 }
 
 }  // namespace asperity::studio

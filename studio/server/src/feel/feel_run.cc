@@ -24,6 +24,7 @@ void FeelRun::point(const Eigen::Vector3d& p_world_m) noexcept {
 
 FeelOutcome FeelRun::take_outcome() {
   if (thread_.joinable()) thread_.join();
+  log_.finish();  // of one that began after the thread's last tick
   return std::move(outcome_);
 }
 

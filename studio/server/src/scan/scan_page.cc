@@ -139,7 +139,9 @@ class ScanPage : public Page {
         "project", "", "", [](const Observer&) { remove_stale_temporary_folders(); }, nullptr);
   }
 
-  void stop() override { session_.reset(); }
+  void stop() override {
+    if (session_) finish(std::exchange(session_, nullptr), std::make_shared<bool>(), nullptr);
+  }
 
  private:
   // What was discarded last, and what had been made of it.
@@ -186,7 +188,8 @@ class ScanPage : public Page {
         "scan", "Opening the source", "",
         [this, chosen, recording, waiting, opened](const Observer& observer) {
           waiting->source = open_source(chosen, waiting->config, recording, observer);
-          *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), events());
+          ScanEvents told = events(waiting->name);
+          *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), std::move(told));
         },
         [this, request, opened](std::exception_ptr error) {
           busy_ = false;
@@ -205,15 +208,24 @@ class ScanPage : public Page {
     busy_ = true;
     auto ending = std::exchange(session_, nullptr);
     auto kept = std::make_shared<bool>(false);
-    shared_.jobs.start_in(
-        "scan", "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
-        [this, request, ending, kept](std::exception_ptr error) {
-          busy_ = false;
-          if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
-          if (error) return refuse(request, error);
-          discarded_.reset();
-          request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
-        });
+    finish(ending, kept, [this, request, ending, kept](std::exception_ptr error) {
+      busy_ = false;
+      if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
+      if (error) return refuse(request, error);
+      discarded_.reset();
+      request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
+    });
+  }
+
+  // `kept` is false where it holds nothing.
+  void finish(const std::shared_ptr<ScanSession>& ending, const std::shared_ptr<bool>& kept, Jobs::Done done) {
+    shared_.jobs.start_storing(
+        "scan", "Finishing the recording", incomplete(ending->name()),
+        [ending, kept](const Observer&) { *kept = ending->finish(); }, std::move(done));
+  }
+
+  static std::string incomplete(const std::string& name) {
+    return "the recording " + printable(name, 200) + " is incomplete";
   }
 
   static void refuse(const Request& request, const std::exception_ptr& error) {
@@ -234,8 +246,9 @@ class ScanPage : public Page {
     }
   }
 
-  ScanEvents events() {
+  ScanEvents events(const std::string& name) {
     ScanEvents out;
+    out.lost = [this, name](const std::string& why) { shared_.report_loss(incomplete(name) + ": " + why); };
     out.finished = [this](FinishedScan scan) {
       auto handed = std::make_shared<FinishedScan>(std::move(scan));
       shared_.post([this, handed] {

@@ -54,8 +54,8 @@ ScanSession::ScanSession(Hub& hub, ScanSetup setup, ScanEvents events)
 ScanSession::~ScanSession() {
   try {
     finish();
-  } catch (const Error&) {
-    // The rows so far remain readable.
+  } catch (const std::exception& fault) {
+    if (events_.lost) events_.lost(fault.what());  // the rows so far remain readable
   }
 }
 
@@ -138,7 +138,7 @@ bool ScanSession::finish() {
   std::size_t segments = 0;
   try {
     segments = recorder_->finish().segments;
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     failure = std::current_exception();
   }
   {

@@ -51,6 +51,7 @@ struct ScanEvents {
   std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
   std::function<void()> discarded;           // it may be brought back: finished() again, with the same times
   std::function<void()> forgotten;           // another has taken its place
+  std::function<void(std::string)> lost;     // why the recording could not be finished, where nobody called finish()
 };
 
 // An open source with its recorder, and a thread that shows what comes from it: topics scan.probe, scan.state,
@@ -60,6 +61,7 @@ class ScanSession {
  public:
   // Throws Error if a sensor cannot be opened.
   ScanSession(Hub& hub, ScanSetup setup, ScanEvents events);
+  // As finish().
   ~ScanSession();
   ScanSession(const ScanSession&) = delete;
   ScanSession& operator=(const ScanSession&) = delete;

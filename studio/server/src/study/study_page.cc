@@ -65,7 +65,7 @@ std::string keep_results(const Project& project, const std::string& log, const s
   const std::string stem = file.substr(0, file.size() - kStudyLogEnding.size()) + ".results";
   std::string name = stem + ".json";
   std::error_code error;
-  for (int k = 2; fs::exists(fs::symlink_status(project.folder() / name, error)); ++k) {
+  for (int k = 2; is_taken(project.folder() / name); ++k) {
     const fs::path there = project.folder() / name;
     if (fs::file_size(there, error) == content.size() && read_file(there, content.size()) == content) return name;
     name = stem + '_' + std::to_string(k) + ".json";

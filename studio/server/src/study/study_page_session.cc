@@ -45,10 +45,9 @@ struct StudyPage::Opening {
     check_plan(study);
     stimuli = read_stimuli(study, project);
     const std::string stem = study.name + '_' + participant;
-    std::error_code error;
     int run = 1;
     name = stem + std::string(kStudyLogEnding);
-    while (fs::exists(fs::symlink_status(project.folder() / name, error))) {
+    while (is_taken(project.folder() / name)) {
       name = stem + '_' + std::to_string(++run) + std::string(kStudyLogEnding);
     }
     session.emplace(study, participant, run);
@@ -122,7 +121,7 @@ void StudyPage::bind_session(Calls& calls) {
 void StudyPage::start() {
   const fs::path file = shared_.project.folder() / kRunningFile;
   std::error_code error;
-  if (!fs::exists(file, error)) return;
+  if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return;
   try {
     const Json running = parse_study_text(read_file(file, kLargestRunningFile), kRunningFile);
     if (!running.is_object() || !running.contains("log") || !running["log"].is_string()) {
@@ -311,8 +310,8 @@ void StudyPage::take_back(const Request& request) {
 // To the system at once: what was confirmed outlives the program. To the disk beside the page.
 void StudyPage::note_row(const std::string& row) {
   log_->append(row);
-  shared_.jobs.start_in(
-      "study", "", "", [log = log_](const Observer&) { log->sync(); },
+  shared_.jobs.start_storing(
+      "study", "", "the last answers of the study may be lost", [log = log_](const Observer&) { log->sync(); },
       [this](std::exception_ptr error) {
         if (error) complain(error);
       });

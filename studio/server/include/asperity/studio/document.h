@@ -34,17 +34,18 @@ class Document {
   using Updater = std::function<void(Json& section)>;
   using Listener = std::function<void(const Edit&)>;
 
-  // An unreadable file is put aside under another name and a note is left in problems().
   explicit Document(std::filesystem::path file);
 
   // Before load(): a page's section with its first value.
   void add_section(const std::string& name, Json first, Validator validator, Updater updater = {});
-  // Reads the file. A section that its page does not take begins with its first value; the file as it was is then kept
-  // as FILE.before, and notes are left. Throws Error where a file cannot be looked at, renamed or copied: the next save
-  // would replace it.
+  // Reads the file, if there is one. A damaged one is renamed to FILE.unreadable. A section that its page does not take
+  // begins with its first value, and steps that cannot be read are dropped; the file as it was is then kept as
+  // FILE.before (put_aside.h). problems() states what happened and names the file. Sections that no page has are kept.
+  // Throws Error, and the file is as it was, where it cannot be opened, read, renamed or copied: the next save would
+  // replace it.
   void load();
-  // The same of the file's content; false if a section was not taken. Throws Error if it is not a document at all; the
-  // value is then of no use.
+  // The same of the file's content; false if a section or the steps were not taken. Throws Error if it is not a
+  // document at all; the value is then of no use.
   bool read(std::string_view text);
 
   const Json& value() const { return value_; }
@@ -78,13 +79,14 @@ class Document {
   };
   // The section with the value at a path of it replaced. Throws Error if it does not take it.
   Json changed_section(const Edit& edit) const;
-  void read_steps(const Json& file);
+  bool read_steps(const Json& file);
   bool go(std::vector<Step>& from, std::vector<Step>& to, bool back);
   void remember(Edit edit);
   void tell(const Edit& edit);
 
   std::filesystem::path file_;
   Json value_ = Json::object();
+  Json unknown_ = Json::object();  // sections that no page has, such as those of a newer version
   std::map<std::string, Json, std::less<>> first_;
   std::map<std::string, Validator, std::less<>> validators_;
   std::map<std::string, Updater, std::less<>> updaters_;

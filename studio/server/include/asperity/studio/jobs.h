@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/base/progress.h"
 #include "asperity/studio/calls.h"
@@ -25,7 +26,7 @@ class Jobs {
   using Post = std::function<void(std::function<void()>)>;  // hands a function to the studio's thread
 
   Jobs(Hub& hub, Post post);
-  // Cancels all and waits.
+  // As close().
   ~Jobs();
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
@@ -36,7 +37,14 @@ class Jobs {
   std::uint64_t start(const std::string& title, const std::string& slot, Work work, Done done);
   std::uint64_t start_in(const std::string& lane, const std::string& title, const std::string& slot, Work work,
                          Done done);
+  // A job that stores what cannot be made again, such as a log: the studio's end waits for it. `loss` begins the
+  // sentence that states its failure: "the log feel.csv is lost".
+  std::uint64_t start_storing(const std::string& lane, const std::string& title, const std::string& loss, Work work,
+                              Done done);
   void cancel(std::uint64_t job);
+  // The studio's end: waits for the jobs that store, and cancels or drops all others; later ones do not begin. What
+  // could not be stored and was not passed to a `done`, in sentences.
+  std::vector<std::string> close();
   // Throws Advice if kMostWaiting jobs are waiting: more are not begun for browsers, who may ask without end.
   void check_room() const;
   static constexpr std::size_t kMostWaiting = 200;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "asperity/studio/calls.h"
 #include "asperity/studio/document.h"
@@ -28,6 +29,8 @@ struct Shared {
   std::shared_ptr<const FeelConfig> feel = nullptr;  // with what the Feel page starts; null: the defaults
   // Throws Advice where a page does not let `client` make an edit (Page::check_edit).
   std::function<void(ClientId client, const Edit& edit)> check_edit = [](ClientId, const Edit&) {};
+  // What could not be stored when no browser can be told any more: the studio's end states it. Thread-safe.
+  std::function<void(const std::string& sentence)> report_loss = [](const std::string&) {};
 };
 
 // The server's side of one page: its section of the document, its calls ("scan.start"), its topics ("scan.probe").
@@ -48,7 +51,7 @@ class Page {
   virtual void edited(const Edit&) {}
   virtual void pointed(ClientId, const Pointer&) {}
   virtual void client_left(ClientId) {}
-  // Before the end: sensors closed, forces at zero.
+  // Before the end: forces at zero. What is still to be stored goes to Jobs::start_storing.
   virtual void stop() {}
 };
 

@@ -14,6 +14,10 @@ struct Entry {
   std::string name;  // relative to the folder, with /
 };
 
+// True if something has this name, a link too. Throws Error if that cannot be looked up: what has the name could be
+// replaced.
+bool is_taken(const std::filesystem::path& path);
+
 // The folder that the studio works in. A browser names files only relative to it, and gets at nothing outside.
 class Project {
  public:
@@ -31,7 +35,7 @@ class Project {
   std::filesystem::path existing(const std::string& name) const;
   // The path of something to be written: as above, but it need not exist; its parent must.
   std::filesystem::path writable(const std::string& name) const;
-  // A free name like "scan", "scan_2", … in the folder, or "feel.csv", "feel_2.csv", ….
+  // A free name like "scan", "scan_2", … in the folder, or "feel.csv", "feel_2.csv", …. Throws Error as is_taken().
   std::string free_name(const std::string& stem, const std::string& extension = {}) const;
 
  private:
