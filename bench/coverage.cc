@@ -104,6 +104,7 @@ int main(int argc, char** argv) {
     bench::print_conditions(scans);
     bench::print_bands(scans);
     bench::print_figures(scans);
+    bench::print_false_pitches(scans);
     if (!options.csv.empty()) bench::write_csv(options.csv, scans);
     return 0;
   } catch (const std::exception& error) {

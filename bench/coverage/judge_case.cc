@@ -16,6 +16,7 @@
 #include "asperity/profile/measure_roughness.h"
 #include "fft.h"
 #include "find_unknown_pitch.h"
+#include "noise_twin.h"
 #include "true_figures.h"
 
 namespace bench {
@@ -137,38 +138,6 @@ const std::vector<FigureKind>& figure_kinds() {
   return kKinds;
 }
 
-// Noise with the amplitudes of `error_m`'s spectrum and random phases: another run of the same disturbance.
-class NoiseTwin {
- public:
-  explicit NoiseTwin(std::span<const double> error_m) : n_(error_m.size()) {
-    std::size_t size = 1;
-    while (size < n_) size <<= 1;
-    spectrum_.assign(size, 0.0);
-    for (std::size_t i = 0; i < n_; ++i) spectrum_[i] = std::isfinite(error_m[i]) ? error_m[i] : 0.0;
-    fft(spectrum_, -1);
-  }
-
-  std::vector<double> draw(asperity::Random& random) const {
-    std::vector<std::complex<double>> x(spectrum_.size());
-    const std::size_t half = x.size() / 2;
-    for (std::size_t k = 1; k < half; ++k) {
-      x[k] = std::polar(std::abs(spectrum_[k]), 2.0 * std::numbers::pi * random.uniform());
-      x[x.size() - k] = std::conj(x[k]);
-    }
-    fft(x, 1);
-    std::vector<double> out(n_);
-    // The padding's share of the power belongs to the points.
-    const double scale =
-        std::sqrt(static_cast<double>(x.size()) / static_cast<double>(n_)) / static_cast<double>(x.size());
-    for (std::size_t i = 0; i < n_; ++i) out[i] = scale * x[i].real();
-    return out;
-  }
-
- private:
-  std::size_t n_;
-  std::vector<std::complex<double>> spectrum_;
-};
-
 double standard_deviation(const std::vector<double>& x) {
   double sum = 0.0, square = 0.0;
   for (const double v : x) sum += v;
@@ -178,6 +147,23 @@ double standard_deviation(const std::vector<double>& x) {
 }
 
 constexpr double kSamePitch = 0.1;  // relative
+constexpr int kTwins = 8;
+constexpr std::uint64_t kTwinStream = 0x7477696e;
+
+// Of a surface without a pattern: whether the oracle has one pitch in all twins nevertheless.
+bool oracle_has_a_pitch(const ScanCase& scan, const TrueProfile& truth, double spacing_m) {
+  asperity::Random random(scan.seed, kTwinStream);
+  const NoiseTwin twin(truth.measured_error_m);
+  double first_m = kMissing;
+  for (int k = 0; k < kTwins; ++k) {
+    std::vector<double> disturbed = twin.draw(random);
+    for (std::size_t i = 0; i < disturbed.size(); ++i) disturbed[i] += truth.texture_m[i];
+    const double pitch_m = find_unknown_pitch_m(disturbed, truth.measured_error_m, spacing_m);
+    if (k == 0) first_m = pitch_m;
+    if (!(std::abs(pitch_m / first_m - 1.0) < kSamePitch)) return false;
+  }
+  return true;
+}
 
 // The spread of the texture's figure over twins of the measured heights' actual error added to the truth: what one
 // would have to live with who knew that error's spectrum, and took its bias off. Of a pattern's figures, one who is
@@ -186,8 +172,7 @@ constexpr double kSamePitch = 0.1;  // relative
 // `told` that the figure of the noisy heights is near the surface's, as it is where both are Gaussian.
 double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m,
                     bool told) {
-  constexpr int kTwins = 8;
-  asperity::Random random(scan.seed, 0x7477696e);
+  asperity::Random random(scan.seed, kTwinStream);
   const NoiseTwin twin(truth.measured_error_m);
   const double surface_m2 = std::pow(rms(truth.texture_m), 2), error_m2 = std::pow(rms(truth.measured_error_m), 2);
   std::vector<double> values;
@@ -320,6 +305,10 @@ ScanOutcome judge_case(const ScanCase& scan) {
       if (result.accuracy->profile) out.correlation = result.accuracy->profile->correlation;
     }
     const TrueProfile truth = find_true_profile(scan.recording, result, measured_m);
+    out.has_pattern = std::isfinite(scan.pitch_m);
+    out.pattern_said = result.periodicity.periodic;
+    out.oracle_pattern =
+        !out.has_pattern && !truth.texture_m.empty() && oracle_has_a_pitch(scan, truth, result.profile.spacing_m);
     out.position_over_sigma = position_error_over_sigma(scan.recording, result.trajectory.motion);
     out.height_over_sigma = error_over_sigma(truth.error_m, result.profile.sigma_m);
     out.texture_over_sigma = error_over_sigma(truth.placed_texture_error_m, result.profile.texture_sigma_m.empty()

@@ -36,6 +36,9 @@ struct ScanOutcome {
   bool failed = false;            // no result at all
   bool trusted = false;           // nothing invalid: exit code 0
   bool nothing = false;           // nothing was touched, or glass
+  bool has_pattern = false;       // the surface, by its maker
+  bool pattern_said = false;      // the result
+  bool oracle_pattern = false;    // of a surface without one: the oracle of the pitch has one
   double correlation = kMissing;  // r: docs/profile.md's comparison
   double position_over_sigma = kMissing, height_over_sigma = kMissing, texture_over_sigma = kMissing;
   double position_rms_m = kMissing, texture_error_m = kMissing, texture_rms_m = kMissing;  // RMS of error, and true

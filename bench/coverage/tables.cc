@@ -115,6 +115,30 @@ void print_figures(const std::vector<ScanOutcome>& scans) {
   }
 }
 
+void print_false_pitches(const std::vector<ScanOutcome>& scans) {
+  struct Count {
+    int scans = 0, said = 0, oracle = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Count> parts;
+  for (const ScanOutcome& scan : scans) {
+    if (scan.failed || scan.has_pattern || !std::isfinite(scan.correlation)) continue;
+    for (const auto& part : {std::pair(std::string("all"), std::string("both")), std::pair(scan.family, scan.probe)}) {
+      Count& count = parts[part];
+      ++count.scans;
+      count.said += scan.pattern_said ? 1 : 0;
+      count.oracle += scan.oracle_pattern ? 1 : 0;
+    }
+  }
+  std::printf(
+      "\nSurfaces without a pattern. The oracle of the pitch takes it for granted that there is one; in the last "
+      "column "
+      "it has the same pitch in all of its twins.\n\n"
+      "| family | probe | scans | called periodic | oracle has a pitch |\n|---|---|---|---|---|\n");
+  for (const auto& [part, count] : parts)
+    std::printf("| %s | %s | %d | %d | %d |\n", part.first.c_str(), part.second.c_str(), count.scans, count.said,
+                count.oracle);
+}
+
 void print_verdicts(const std::vector<ScanOutcome>& scans) {
   struct Class {
     const char* name;

@@ -25,7 +25,7 @@ constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
 constexpr double kSurely = 1.96;
 constexpr int kHarmonicsSeen = 8;
 constexpr std::size_t kFewestPeriods = 3;
-constexpr double kThird = 1.0 / 3.0;
+constexpr double kAlongShare = 1.0 / 2.0, kRibsShare = 1.0 / 3.0, kLatticeShare = 1.0 / 6.0;
 constexpr double kMultipleReach = 0.06;  // the same of a multiple in noise
 
 // By how much the pitch is too long: 2 to 8 if none but every so many of its harmonics are lines; 1 if it is right,
@@ -132,13 +132,13 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   const BentPath path(unrolled_m, spacing_m);
   if (!path.bends()) return find_along(height_m, spacing_m, noise, config, {});
 
-  // Each of the three searches has a third of the chance.
-  const Periodicity along = find_along(height_m, spacing_m, noise, config, {kThird, 0.0});
+  // Each of the three searches has a share of the chance.
+  const Periodicity along = find_along(height_m, spacing_m, noise, config, {kAlongShare, 0.0});
   if (along.periodic) return along;
   const RibDirections ribs = find_rib_directions(path, height_m, spacing_m, noise, config);
   for (const RibDirection& rib : ribs.best) {
     Periodicity out = find_along(path.straightened(height_m, rib.tangent), spacing_m, noise, config,
-                                 {kThird, ribs.range * path.bend_rms_m()});
+                                 {kRibsShare, ribs.range * path.bend_rms_m()});
     if (!out.periodic) continue;
     out.across_pitch_m = path.across_over_along(rib.tangent) * out.pitch_m;
     out.across_pitch_stderr_m = out.across_pitch_m * std::hypot(out.pitch_stderr_m / out.pitch_m,
@@ -146,8 +146,8 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, path.spread_of_period(rib.tangent) * out.pitch_m);
     return out;
   }
-  const std::optional<Lattice> lattice =
-      find_lattice(path, height_m, spacing_m, noise, highest_noise(noise), config, kThird * LineSearch::kByChance);
+  const std::optional<Lattice> lattice = find_lattice(path, height_m, spacing_m, noise, highest_noise(noise), config,
+                                                      kLatticeShare * LineSearch::kByChance);
   if (!lattice) return along;
   const Periodicity followed = follow_lattice(path, *lattice, height_m, spacing_m, noise, config);
   return followed.periodic ? followed : along;

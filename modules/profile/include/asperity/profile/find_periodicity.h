@@ -41,7 +41,7 @@ struct Periodicity {
 // residuals' autocorrelation allowed for, so an error of the arc length that comes and goes is in it; one
 // that is constant is not. The depth is taken over periods of which at least 70 % are not gaps; its standard
 // error is that of a median. `periodic` is false below `min_strength`, for fewer than three periods and where
-// none of the first eight harmonics is a line, which a random surface has in one of a hundred profiles
+// none of the first eight harmonics is a line nor the first two are a pair, as in one of a hundred random profiles
 // (docs/periodicity.md); the rest is then as far as it could be had. Throws Error for a spacing or a range that makes
 // no sense.
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config);

@@ -11,9 +11,9 @@ namespace asperity {
 
 // find_periodicity() of what a noisy profile is of: the depth without what noise adds to the highest less the lowest
 // point of a period, and standard errors of the measurement of this stretch.
-// A pattern has a line: one of its first eight harmonics stands out of the noise and of its neighbours in the
-// periodogram, as a random surface's do in one of a hundred profiles (docs/periodicity.md); without one it is not
-// periodic.
+// A pattern has a line: one of its first eight harmonics, or the first two together, stand out of the noise and of
+// their neighbours in the periodogram, as a random surface's do in one of a hundred profiles (docs/periodicity.md);
+// without one it is not periodic.
 //
 // The depth is followed over added noise as the roughness is (measure_roughness_under_noise.h), at the pitch that was
 // found; in its error are the draws' spread, the extrapolation's doubt, that of the noise's power and
