@@ -130,9 +130,8 @@ void print_false_pitches(const std::vector<ScanOutcome>& scans) {
     }
   }
   std::printf(
-      "\nSurfaces without a pattern. The oracle of the pitch takes it for granted that there is one; in the last "
-      "column "
-      "it has the same pitch in all of its twins.\n\n"
+      "\nSurfaces without a pitch of their own; `sines` hold several waves, each of which is a line. The oracle of the "
+      "pitch assumes that there is a pattern. In the last column it has the same pitch in all of its twins.\n\n"
       "| family | probe | scans | called periodic | oracle has a pitch |\n|---|---|---|---|---|\n");
   for (const auto& [part, count] : parts)
     std::printf("| %s | %s | %d | %d | %d |\n", part.first.c_str(), part.second.c_str(), count.scans, count.said,
