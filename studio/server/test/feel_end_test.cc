@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "../../../modules/device/test/fake_drivers.h"
 #include "asperity/device/dhd_device.h"
-#include "fake_drivers.h"
 #include "feel_rig.h"
 
 namespace asperity::studio {
