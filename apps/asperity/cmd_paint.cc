@@ -111,7 +111,8 @@ class PaintCommand : public Command {
     } else {
       name_kept(shown, scene_folder->commit());
     }
-    for (const std::string& note : covered_notes(result, object, texture)) print_error("paint: " + note);
+    for (const std::string& note : covered_notes(result.covered, "texture " + std::to_string(texture.index)))
+      print_error("paint: " + note);
     print_json(json);
     say(summary(result, texture) + "scene in " + printable(shown.string(), 200) + "\n");
     return kDone;

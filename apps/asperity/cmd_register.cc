@@ -25,6 +25,7 @@
 #include "asperity/registration/manual_alignment.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/session/our_folder.h"
+#include "asperity/session/paint_scene.h"
 #include "asperity/session/register_input.h"
 #include "asperity/session/scene_folder.h"
 #include "commands.h"
@@ -147,7 +148,8 @@ class RegisterCommand : public Command {
     const fs::path target = into_.empty() ? fs::path(output_) : input.onto.given;
     const fs::path place = folder ? folder->path() : scene_folder->path();
     const bool listing = input.onto.files.contains("files.json");
-    write_registration(place, result, input.scans, std::move(input.onto), listing);
+    const std::vector<CoveredTexture> covered =
+        write_registration(place, result, input.scans, std::move(input.onto), listing);
     if (listing) write_listing(place);
     const std::string json = read_file(place / "registration.json", std::uint64_t{1} << 30);
     const bool added = into_.empty() || result.trustworthy || keep_invalid_;
@@ -161,8 +163,11 @@ class RegisterCommand : public Command {
     for (const Verdict& verdict : result.verdicts) {
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
     }
-    if (!added)
+    if (!added) {
       print_error(printable(into_, 200) + ": unchanged, because the pose is invalid; --keep-invalid adds the scan");
+    } else {
+      for (const std::string& note : covered_notes(covered, "what was added")) print_error("register: " + note);
+    }
     return result.trustworthy ? kDone : kNotTrustworthy;
   }
 

@@ -97,7 +97,9 @@ std::vector<std::string> files_of(const fs::path& folder) {
 
 TEST_F(RegisterInto, ASecondScanIsTheOneThatItWouldBeAlone) {
   const std::string scene = copy();
-  ASSERT_EQ(add({at("b"), "--into", scene}, "b"), 0);
+  Outcome outcome;
+  ASSERT_EQ(add({at("b"), "--into", scene}, "b", &outcome), 0);
+  EXPECT_THAT(outcome.err, HasSubstr("register: what was added covers texture 1 (scan1.texture.json) on "));
   const fs::path folder = own("scene"), first = at("first"), alone = at("alone");
   EXPECT_EQ(text_of(folder / "scan1.texture.json"), text_of(first / "scan1.texture.json"));
   EXPECT_EQ(text_of(folder / "scan2.texture.json"), text_of(alone / "scan1.texture.json"));
@@ -183,7 +185,9 @@ TEST_F(RegisterInto, TheSameNameAgainReplacesTheScan) {
 
 TEST_F(RegisterInto, UnderLeavesWhatIsRenderedAsItWas) {
   const std::string scene = copy();
-  ASSERT_EQ(add({at("b"), "--into", scene, "--under"}, "b"), 0);
+  Outcome outcome;
+  ASSERT_EQ(add({at("b"), "--into", scene, "--under"}, "b", &outcome), 0);
+  EXPECT_THAT(outcome.err, Not(HasSubstr("covers texture")));
   const Scene both = read_scene(scene), one = read_scene(fs::path(at("first")) / "scene.json");
   for (std::size_t t = 0; t < one.objects[0].mesh.haptic.size(); ++t) {
     if (one.objects[0].mesh.haptic[t].texture == 1) {

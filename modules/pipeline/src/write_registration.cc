@@ -107,19 +107,26 @@ std::string format_path_csv(const MeshPath& path) {
 
 }  // namespace
 
-void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
-               const std::vector<Scan>& scans, const std::string& date) {
+std::vector<CoveredTexture> add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+                                      const std::vector<Scan>& scans, const std::string& date) {
   SceneObject& object = scene.objects.front();
   const bool measured = is_of_scans(object);
   for (const ScanPlace& place : places) {
     if (place.replaces) take_out_texture(object, place.texture);
   }
   for (SceneTexture& texture : textures_of(result, places, scans, date)) put_texture(object, std::move(texture));
-  lay_triangles(object, claims_of(result.coordinates, places));
+  std::vector<CoveredTexture> covered =
+      covered_textures(object, lay_triangles(object, claims_of(result.coordinates, places)));
+  // Scans of this call over one another are its own.
+  std::erase_if(covered, [&](const CoveredTexture& texture) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](const ScanPlace& place) { return place.texture == texture.index; });
+  });
   if (measured) set_scan_materials(object, free_file_name(scene, "material.csv"));
   const std::vector<const SceneTexture*> all = scans_of(scene);
   scene.T_mesh_world =
       all.empty() ? result.placements.front().registration.T_mesh_world : all.front()->origin->T_mesh_world;
+  return covered;
 }
 
 Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m) {
@@ -145,8 +152,8 @@ FolderContent is_registration_folder(const fs::path& folder) noexcept {
   }
 }
 
-void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
-                        EarlierScene earlier, bool listing) {
+std::vector<CoveredTexture> write_registration(const fs::path& folder, const ScansOnMesh& result,
+                                               const std::vector<Scan>& scans, EarlierScene earlier, bool listing) {
   const std::vector<ScanPlace> places = places_of(earlier, result);
   std::set<std::string> dropped;
   std::vector<std::vector<std::string>> files;
@@ -165,8 +172,9 @@ void write_registration(const fs::path& folder, const ScansOnMesh& result, const
     files.push_back(files_below(place, folder));
   }
   earlier.registration = registration_json(result, places, files, earlier);
-  add_scans(earlier.scene, result, places, scans, earlier.date);
+  std::vector<CoveredTexture> covered = add_scans(earlier.scene, result, places, scans, earlier.date);
   write_scene_again(folder, earlier, dropped, listing);
+  return covered;
 }
 
 void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,

@@ -139,6 +139,17 @@ LaidTriangles lay_triangles(SceneObject& object, std::span<const CoveredTriangle
   return out;
 }
 
+std::vector<CoveredTexture> covered_textures(const SceneObject& object, const LaidTriangles& laid) {
+  std::vector<CoveredTexture> out;
+  for (const auto& [index, triangles] : laid.covered) {
+    const auto still = std::count_if(object.mesh.haptic.begin(), object.mesh.haptic.end(),
+                                     [index = index](const HapticTriangle& one) { return one.texture == index; });
+    const SceneTexture* listed = object.find_texture(index);
+    out.push_back({index, listed != nullptr ? listed->file : "", triangles, static_cast<std::size_t>(still)});
+  }
+  return out;
+}
+
 bool take_out_texture(SceneObject& object, int index) {
   const auto listed = std::find_if(object.textures.begin(), object.textures.end(),
                                    [index](const SceneTexture& texture) { return texture.index == index; });

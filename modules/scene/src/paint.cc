@@ -115,11 +115,7 @@ PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, S
   put_texture(object, std::move(texture));
   const LaidTriangles laid = lay_triangles(object, claims);
   out.painted_over = laid.over;
-  for (const auto& [index, triangles] : laid.covered) {
-    const auto still = std::count_if(object.mesh.haptic.begin(), object.mesh.haptic.end(),
-                                     [index = index](const HapticTriangle& one) { return one.texture == index; });
-    out.covered.push_back({index, triangles, static_cast<std::size_t>(still)});
-  }
+  out.covered = covered_textures(object, laid);
   out.painted_under = laid.under;
   return out;
 }

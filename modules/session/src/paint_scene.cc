@@ -37,19 +37,27 @@ SceneTexture choose_texture(const Scene& scene, const fs::path& file, int index,
   return out;
 }
 
-std::vector<std::string> covered_notes(const PaintResult& result, const SceneObject& object,
-                                       const SceneTexture& texture) {
+std::vector<std::string> covered_notes(std::span<const CoveredTexture> textures, const std::string& what) {
   std::vector<std::string> out;
-  for (const CoveredTexture& covered : result.covered) {
-    const SceneTexture* earlier = object.find_texture(covered.index);
-    const std::string file = earlier != nullptr ? " (" + printable(earlier->file, 200) + ")" : std::string();
+  for (const CoveredTexture& covered : textures) {
+    const std::string file = covered.file.empty() ? "" : " (" + printable(covered.file, 200) + ")";
     const std::string still = covered.rendered_still == 0
                                   ? "; no other triangle shows texture " + std::to_string(covered.index)
                                   : "; " + std::to_string(covered.rendered_still) + " others still show it";
-    out.push_back("texture " + std::to_string(texture.index) + " covers texture " + std::to_string(covered.index) +
-                  file + " on " + std::to_string(covered.triangles) +
-                  (covered.triangles == 1 ? " triangle" : " triangles") + still +
+    out.push_back(what + " covers texture " + std::to_string(covered.index) + file + " on " +
+                  std::to_string(covered.triangles) + (covered.triangles == 1 ? " triangle" : " triangles") + still +
                   ". The scene keeps both; --under lays the new one below");
+  }
+  return out;
+}
+
+Json covered_json(std::span<const CoveredTexture> textures) {
+  Json out = Json::array();
+  for (const CoveredTexture& covered : textures) {
+    out.push_back({{"index", covered.index},
+                   {"file", covered.file.empty() ? Json(nullptr) : Json(covered.file)},
+                   {"triangles", covered.triangles},
+                   {"rendered_still", covered.rendered_still}});
   }
   return out;
 }
@@ -66,14 +74,7 @@ Json stroke_json(const PaintResult& result, const SceneObject& object, const Sce
   out["triangles"] = warp.triangles;
   out["painted_over"] = result.painted_over;
   out["painted_under"] = result.painted_under;
-  out["covered"] = Json::array();
-  for (const CoveredTexture& covered : result.covered) {
-    const SceneTexture* earlier = object.find_texture(covered.index);
-    out["covered"].push_back({{"index", covered.index},
-                              {"file", earlier != nullptr ? Json(earlier->file) : Json(nullptr)},
-                              {"triangles", covered.triangles},
-                              {"rendered_still", covered.rendered_still}});
-  }
+  out["covered"] = covered_json(result.covered);
   out["warp"] = {
       {"stretch_min", warp.stretch_min}, {"stretch_max", warp.stretch_max},    {"stretch_rms", warp.stretch_rms},
       {"folded", warp.folded.size()},    {"stretched", warp.stretched.size()}, {"overlapping", warp.overlapping.size()},

@@ -9,6 +9,7 @@
 #include "asperity/json/json.h"
 #include "asperity/pipeline/earlier_scene.h"
 #include "asperity/pipeline/register_scans.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/scene.h"
 
 namespace asperity {
@@ -23,9 +24,9 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
 
 // Adds scans to a scene: their textures by their places, their coordinates over or under those that are there, and what
 // was measured of compliance, stiffness and friction as a map over the mesh, unless the scene has a map of another
-// kind. A scan that is there is replaced: it keeps index and order.
-void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
-               const std::vector<Scan>& scans, const std::string& date);
+// kind. A scan that is there is replaced: it keeps index and order. Gives the textures of the scene that they cover.
+std::vector<CoveredTexture> add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+                                      const std::vector<Scan>& scans, const std::string& date);
 
 // The mesh with the scans' textures and coordinates. `mesh` is as it was read, with the haptic coordinates that it
 // already has; its unit is `unit_m`.
@@ -36,9 +37,10 @@ Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m)
 // mesh as path.csv (mesh frame): in `folder` if there is one scan on a mesh alone, else in a folder of the scan's name
 // below it. What is beside `earlier` is written too, but for what was measured of scans that are replaced. `folder`
 // exists and is empty. With `listing` a files.json is to follow. Throws Error for a name that is not that of a folder
-// in it, or if a file cannot be written.
-void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
-                        EarlierScene earlier, bool listing = false);
+// in it, or if a file cannot be written. Gives the textures that `earlier` has and that are covered now.
+std::vector<CoveredTexture> write_registration(const std::filesystem::path& folder, const ScansOnMesh& result,
+                                               const std::vector<Scan>& scans, EarlierScene earlier,
+                                               bool listing = false);
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "asperity/geometry/covered_triangle.h"
 #include "asperity/scene/scene.h"
@@ -30,6 +31,17 @@ struct LaidTriangles {
   std::size_t under = 0;                        // triangles on which another one still is
   std::map<std::int32_t, std::size_t> covered;  // of `over`, by the index of the texture that was rendered there
 };
+
+// A texture over which others were laid.
+struct CoveredTexture {
+  std::int32_t index = 0;
+  std::string file;                // as the object lists it; empty if it does not
+  std::size_t triangles = 0;       // of it, that were covered
+  std::size_t rendered_still = 0;  // of it, that nothing covers
+};
+
+// Those of `laid`, by rising index, as the object is afterwards.
+std::vector<CoveredTexture> covered_textures(const SceneObject& object, const LaidTriangles& laid);
 
 // Puts coordinates into the stacks of their triangles, those of one triangle in their given order: each over all
 // textures of the same or a smaller order, under those of a greater one. A texture that the object does not list, for

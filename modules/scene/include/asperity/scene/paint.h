@@ -22,13 +22,6 @@ struct VirtualPath {
   bool locally_shortest = true;         // false: a piece between two picks could still be shortened
 };
 
-// A texture that a stroke was painted over.
-struct CoveredTexture {
-  std::int32_t index = 0;
-  std::size_t triangles = 0;       // of it, that the stroke covers
-  std::size_t rendered_still = 0;  // of it, that nothing covers
-};
-
 struct PaintResult {
   VirtualPath path;
   HapticWarp warp;

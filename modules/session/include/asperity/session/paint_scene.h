@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/progress.h"
 #include "asperity/json/json.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/scene.h"
 
@@ -23,9 +25,8 @@ Scene read_painted_scene(const std::filesystem::path& file, std::optional<double
 SceneTexture choose_texture(const Scene& scene, const std::filesystem::path& file, int index,
                             const Observer& observer = {});
 
-// A sentence for each texture of the object that the stroke covers, with its file and triangles.
-std::vector<std::string> covered_notes(const PaintResult& result, const SceneObject& object,
-                                       const SceneTexture& texture);
+// A sentence for each texture that `what`, such as "texture 2", covers, with its file and triangles.
+std::vector<std::string> covered_notes(std::span<const CoveredTexture> textures, const std::string& what);
 
 // What one stroke did, as in paint.json, but for the settings.
 Json stroke_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture);
