@@ -155,8 +155,8 @@ class FeelCommand : public Command {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
-    reads("");
     check_length(drive);
+    reads("");
     warn_of(scene.problems);
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);

@@ -58,9 +58,12 @@ Json to_json(const Difference& d) {
           {"verdict", verdict_of(d.noticeable)}};
 }
 
-// A value that is not known, or a percentage of 0, is printed as a dash.
-std::string cell(const char* form, double value, const char* unit_text, std::size_t width) {
-  std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
+// A value that is not known, or a percentage of 0, is printed as a dash; one of next to nothing has a bound.
+std::string cell(const char* form, double value, std::string_view unit_text, std::size_t width) {
+  constexpr double kMost_percent = 1e6;
+  std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value).append(unit_text) : "–";
+  if (unit_text == " %" && std::isfinite(value) && std::abs(value) > kMost_percent)
+    out = value > 0.0 ? "> 1e6 %" : "< -1e6 %";
   const std::size_t letters = std::isfinite(value) ? out.size() : 1;
   return letters < width ? std::string(width - letters, ' ') + out : out;
 }
@@ -262,8 +265,11 @@ class TextureCompareCommand : public Command {
         }
       }
     }
-    for (const auto& line : lines)
+    for (const auto& line : lines) {
+      if (std::none_of(line.begin(), line.end(), [](double h) { return std::isfinite(h); }))
+        throw Error(printable(file, 200) + ": has a line without heights");
       surface.lines_m.push_back(band_limited_heights(line, surface.spacing_m, settings_.compare));
+    }
     surface.roughness = roughness_of(surface.lines_m, surface.spacing_m);
     return surface;
   }

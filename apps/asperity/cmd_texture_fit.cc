@@ -153,6 +153,7 @@ class TextureFitCommand : public Command {
     refuse_stranger(output_, begins_as_texture, files_);
     if (files_.size() == 1) reads(files_.front());
     FittedTexture fitted = fit();
+    (void)format_texture_files(fitted.texture, "texture");  // what no texture file may have is the input's fault
     reads("");
     finish(fitted);
     return kDone;

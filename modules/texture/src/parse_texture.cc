@@ -66,8 +66,10 @@ void parse_common(JsonObject& root, Texture& texture) {
   }
   if (const auto band = root.optional("band_cycles_per_mm")) {
     const auto limits = band->numbers(kMostCoefficients);
-    if (limits.size() != 2 || !(limits[0] >= 0.0) || !(limits[1] >= limits[0])) {
-      band->fail("is not [low, high] with 0 <= low <= high");
+    constexpr double kShortestWave_cycles_per_mm = 1e7;  // an atom
+    if (limits.size() != 2 || !(limits[0] >= 0.0) || !(limits[1] >= limits[0]) ||
+        limits[1] > kShortestWave_cycles_per_mm) {
+      band->fail("is not [low, high] with 0 <= low <= high <= 1e7");
     }
     texture.band_cycles_per_mm = {limits[0], limits[1]};
   }

@@ -124,6 +124,7 @@ TEST(TextureFile, NamesFileLineAndKeyOfWhatIsWrong) {
   expect_error(with("-2e-06, ", ""), "x.json:10:", "key 'fourier1d.b_m': 3 numbers where a_m has 2");
   expect_error(with("0.9556", "1.5"), "x.json:13:", "key 'compliance_kc': 1.5 is outside 0 to 1");
   expect_error(with("[0.1, 4]", "[4, 0.1]"), "'band_cycles_per_mm'", "is not [low, high]");
+  expect_error(with("[0.1, 4]", "[0.1, 1e308]"), "'band_cycles_per_mm'", "is not [low, high]");
   expect_error(with("\"lift_m\": ", "\"friction\": 1, \"lift_m\": "), "x.json:16:", "key 'friction' appears twice");
   expect_error(with("{\"note\":[1,2]}", "7"), "'extra'", "must be an object");
   expect_error(with("[1,2]", std::string(1000, '[') + std::string(1000, ']')),
