@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define ASPERITY_FEEL_MAJOR 1
-#define ASPERITY_FEEL_MINOR 1
+#define ASPERITY_FEEL_MINOR 2
 
 /* What became of a call. On anything but ASPERITY_OK nothing was changed, handles that were to be written are NULL, and
  * asperity_last_error() says why. */
@@ -55,7 +55,7 @@ ASPERITY_FEEL_API const char *asperity_status_text(asperity_status status);
 /* Why the last call of this thread that did not end with ASPERITY_OK did not; UTF-8, at most 1023 bytes, valid until
  * the thread's next such call. Empty if there was none. */
 ASPERITY_FEEL_API const char *asperity_last_error(void);
-/* "1.1 (asperity 0.2.0)" */
+/* "1.2 (asperity 0.2.0)" */
 ASPERITY_FEEL_API const char *asperity_feel_version(void);
 
 /* --- Scenes ------------------------------------------------------------------------------------------------------ */
@@ -151,7 +151,8 @@ typedef struct asperity_touch {
   double friction_N[3];
   double proxy_m[3];         /* where the tip's centre would be on a rigid surface */
   double texture_height_m;   /* at the place that is touched; 0 where there is none */
-  double vibration_N;        /* the part of the force that vibrates, for a voice coil or a motor */
+  double vibration_N;        /* the force along the contact and the motion as one number, its static part too: it needs
+                                a high-pass before a voice coil or a motor, as the functions below have */
   double point_m[3];         /* on the surface, of the strongest contact; 0 where nothing is touched */
   double normal[3];          /* unit, from the surface towards the tip; 0 where nothing is touched */
   double barycentric[3];     /* of the point in its triangle */
@@ -186,9 +187,29 @@ ASPERITY_FEEL_API void asperity_feel_reset(asperity_feel *feel);
 ASPERITY_FEEL_API asperity_status asperity_vibration_samples(const double *force_N, size_t count, double force_rate_Hz,
                                                              double sample_rate_Hz, double volume, double full_scale_N,
                                                              float *samples, size_t capacity, size_t *written);
-/* From 0 to 1, how strongly a gamepad's motor turns for the last forces, count of them: their RMS over
- * `full_scale_N`. Real time: yes. */
+/* From 0 to 1, how strongly a gamepad's motor turns for the last forces, count of them: the RMS of their deviation from
+ * their straight line over `full_scale_N`, so that a force that rests or grows steadily gives 0. It has no memory: give
+ * it at least 50 ms of forces, since of fewer it loses slow vibration, too. A running loop takes asperity_rumble
+ * instead. Real time: yes. */
 ASPERITY_FEEL_API double asperity_vibration_rumble(const double *force_N, size_t count, double full_scale_N);
+
+/* The two motors of a gamepad: the force is high-passed at 20 Hz (second-order Butterworth: what rests or moves slowly
+ * is no vibration) and split at 100 Hz for the heavy, slow motor and the light, fast one. Belongs to one thread at a
+ * time. Since 1.2. */
+typedef struct asperity_rumble asperity_rumble;
+
+/* Of forces at `force_rate_Hz` (400 to 20000); `full_scale_N` (0.001 to 1000) is the amplitude that is 1. */
+ASPERITY_FEEL_API asperity_status asperity_rumble_create(double force_rate_Hz, double full_scale_N,
+                                                         asperity_rumble **rumble);
+ASPERITY_FEEL_API void asperity_rumble_free(asperity_rumble *rumble);
+/* One force (vibration_N of a step). One that is not finite is ignored. Real time: yes. */
+ASPERITY_FEEL_API void asperity_rumble_add(asperity_rumble *rumble, double force_N);
+/* The levels of both motors since the last call, 0 to 1: sqrt(2) times the RMS of each band over `full_scale_N`; 0 if
+ * no force was added. Call it 20 to 100 times a second. Real time: yes. */
+ASPERITY_FEEL_API void asperity_rumble_take(asperity_rumble *rumble, double *slow, double *fast);
+/* The tip was lifted or set down elsewhere: the next force is taken as if it had been there for ever. Real time: yes.
+ */
+ASPERITY_FEEL_API void asperity_rumble_reset(asperity_rumble *rumble);
 
 #ifdef __cplusplus
 }

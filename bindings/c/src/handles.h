@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <asperity_feel.h>
+#include "asperity/device/rumble_bands.h"
 #include "asperity/device/snapshot_exchange.h"
 #include "asperity/device/vibration_axis.h"
 #include "asperity/render/render_model.h"
@@ -27,4 +28,10 @@ struct asperity_feel {
   asperity::ServoState state;
   asperity::VibrationAxis vibration;
   std::int64_t t_ns = 0;
+};
+
+struct asperity_rumble {
+  asperity::RumbleBands bands;
+  double full_scale_N;
+  bool running;  // false after a reset: the filters begin settled at the next force
 };

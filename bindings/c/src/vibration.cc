@@ -15,6 +15,30 @@ using asperity::c_library::BadArgument;
 using asperity::c_library::guarded;
 using asperity::c_library::there;
 
+constexpr double kHighPass_Hz = 20.0, kSplit_Hz = 100.0;  // as open_rumble_sink has them
+
+double level_of(double share) noexcept { return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0; }
+
+// RMS of what the least-squares line through the values leaves, NaN if one of them is not finite.
+double rms_about_line(std::span<const double> values) noexcept {
+  const auto n = static_cast<double>(values.size());
+  const double middle = 0.5 * (n - 1.0);
+  double sum = 0.0, moment = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double x = static_cast<double>(i) - middle;
+    sum += values[i];
+    moment += x * values[i];
+    spread += x * x;
+  }
+  const double mean = sum / n, slope = spread > 0.0 ? moment / spread : 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double rest = values[i] - mean - slope * (static_cast<double>(i) - middle);
+    square += rest * rest / n;
+  }
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 extern "C" {
@@ -49,9 +73,44 @@ asperity_status asperity_vibration_samples(const double* force_N, size_t count, 
 
 double asperity_vibration_rumble(const double* force_N, size_t count, double full_scale_N) {
   if (force_N == nullptr || count == 0 || !(full_scale_N > 0.0)) return 0.0;
-  double square = 0.0;
-  for (std::size_t i = 0; i < count; ++i) square += force_N[i] * force_N[i] / static_cast<double>(count);
-  const double level = std::sqrt(square) / full_scale_N;
-  return std::isfinite(level) ? std::clamp(level, 0.0, 1.0) : 0.0;
+  return level_of(rms_about_line({force_N, count}) / full_scale_N);
+}
+
+asperity_status asperity_rumble_create(double force_rate_Hz, double full_scale_N, asperity_rumble** rumble) {
+  if (rumble != nullptr) *rumble = nullptr;
+  return guarded([&] {
+    asperity_rumble*& out = there(rumble, "rumble");
+    if (!(force_rate_Hz >= 400.0 && force_rate_Hz <= 20000.0))
+      throw BadArgument("force_rate_Hz is " + std::to_string(force_rate_Hz) + ", not from 400 to 20000");
+    if (!(full_scale_N >= 0.001 && full_scale_N <= 1000.0))
+      throw BadArgument("full_scale_N is " + std::to_string(full_scale_N) + ", not from 0.001 to 1000");
+    out = new asperity_rumble{{kHighPass_Hz, kSplit_Hz, force_rate_Hz}, full_scale_N, true};
+  });
+}
+
+void asperity_rumble_free(asperity_rumble* rumble) { delete rumble; }
+
+void asperity_rumble_add(asperity_rumble* rumble, double force_N) {
+  if (rumble == nullptr || !std::isfinite(force_N)) return;
+  if (!rumble->running) rumble->bands.start_at(force_N);
+  rumble->running = true;
+  rumble->bands.add(force_N);
+}
+
+void asperity_rumble_take(asperity_rumble* rumble, double* slow, double* fast) {
+  asperity::RumbleBands::Amplitudes amplitudes;
+  double full_scale_N = 1.0;
+  if (rumble != nullptr) {
+    amplitudes = rumble->bands.take();
+    full_scale_N = rumble->full_scale_N;
+  }
+  if (slow != nullptr) *slow = level_of(amplitudes.slow_N / full_scale_N);
+  if (fast != nullptr) *fast = level_of(amplitudes.fast_N / full_scale_N);
+}
+
+void asperity_rumble_reset(asperity_rumble* rumble) {
+  if (rumble == nullptr) return;
+  rumble->bands.take();
+  rumble->running = false;
 }
 }

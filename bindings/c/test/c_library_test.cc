@@ -358,41 +358,13 @@ TEST_F(CLibrary, SettingsAreListed) {
   EXPECT_EQ(asperity_settings_set(settings_, "rate_Hz", "2000"), ASPERITY_OK) << asperity_last_error();
 }
 
-TEST(CLibraryVibration, SamplesAreOfTheSoundAndRumbleIsTheLevel) {
-  std::vector<double> force_N(500);
-  for (std::size_t i = 0; i < force_N.size(); ++i)
-    force_N[i] = 0.2 * std::sin(0.2 * 3.14159265 * static_cast<double>(i));
-  std::size_t count = 0;
-  ASSERT_EQ(asperity_vibration_samples(force_N.data(), force_N.size(), 1000.0, 48000.0, 1.0, 1.0, nullptr, 0, &count),
-            ASPERITY_OK)
-      << asperity_last_error();
-  EXPECT_EQ(count, 24000u);
-  std::vector<float> samples(count + 5, 9.0F);
-  ASSERT_EQ(asperity_vibration_samples(force_N.data(), force_N.size(), 1000.0, 48000.0, 1.0, 1.0, samples.data(), 100,
-                                       &count),
-            ASPERITY_OK);
-  EXPECT_EQ(count, 100u);
-  EXPECT_EQ(samples[100], 9.0F);
-  ASSERT_EQ(asperity_vibration_samples(force_N.data(), force_N.size(), 1000.0, 48000.0, 1.0, 1.0, samples.data(),
-                                       samples.size(), &count),
-            ASPERITY_OK);
-  float highest = 0.0F;
-  for (std::size_t i = 6000; i < 18000; ++i) highest = std::max(highest, samples[i]);
-  EXPECT_NEAR(highest, 0.2F, 0.01F);  // 100 Hz passes whole
-  EXPECT_EQ(asperity_vibration_samples(force_N.data(), force_N.size(), 1.0, 48000.0, 1.0, 1.0, nullptr, 0, &count),
-            ASPERITY_BAD_ARGUMENT);
-  EXPECT_NEAR(asperity_vibration_rumble(force_N.data(), force_N.size(), 1.0), 0.2 / std::sqrt(2.0), 1e-3);
-  EXPECT_EQ(asperity_vibration_rumble(force_N.data(), force_N.size(), 1e-3), 1.0);
-  EXPECT_EQ(asperity_vibration_rumble(nullptr, 3, 1.0), 0.0);
-}
-
 // What a program was compiled with must stay where it is: x86-64's and AArch64's layout of version 1.0.
 TEST(CLibraryLayout, OfVersionOneStays) {
   static_assert(sizeof(asperity_motion) == 64 && offsetof(asperity_motion, dt_s) == 56);
   static_assert(offsetof(asperity_touch, force_N) == 8 && offsetof(asperity_touch, proxy_m) == 104);
   static_assert(offsetof(asperity_touch, vibration_N) == 136 && offsetof(asperity_touch, object) == 216);
   static_assert(offsetof(asperity_touch, starts_inside) == 232 && sizeof(asperity_touch) == 240);
-  EXPECT_EQ(std::string(asperity_feel_version()).substr(0, 4), "1.1 ");
+  EXPECT_EQ(std::string(asperity_feel_version()).substr(0, 4), "1.2 ");
 }
 
 }  // namespace

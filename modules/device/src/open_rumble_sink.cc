@@ -9,8 +9,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/rumble_bands.h"
 #include "check_config.h"
-#include "rumble_bands.h"
 #include "sdl_functions.h"
 #include "sdl_subsystem.h"
 #include "soft_limit.h"

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "../src/rumble_bands.h"
 #include "asperity/base/error.h"
+#include "asperity/device/rumble_bands.h"
 #include "serve_device.h"
 #include "virtual_gamepad.h"
 

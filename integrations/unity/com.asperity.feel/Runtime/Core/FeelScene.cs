@@ -12,7 +12,7 @@ namespace Asperity.Feel
 
         private FeelScene(IntPtr scene) { Handle = new SceneHandle(scene); }
 
-        /// <summary>Version of the C library, such as "1.1 (asperity 0.2.0)".</summary>
+        /// <summary>Version of the C library, such as "1.2 (asperity 0.2.0)".</summary>
         public static string LibraryVersion { get { return Native.Text(Native.asperity_feel_version()); } }
 
         /// <summary>Reads a *.scene.json with the files that it names, or a mesh (OBJ, PLY, STL, OFF, glTF) in metres.</summary>

@@ -38,6 +38,9 @@ namespace Asperity.Feel
         /// <summary>Called on the loop's thread after each step; must not wait or allocate. Set before Start.</summary>
         public Action<Touch> OnStep { get; set; }
 
+        /// <summary>Below, a hand is pushed rather than vibrated, Hz.</summary>
+        public const double LowestVibration_Hz = 30.0;
+
         /// <summary>The vibrating part of the force, for sound.</summary>
         public VibrationStream Vibration { get; private set; }
 
@@ -65,7 +68,8 @@ namespace Asperity.Feel
         /// <summary>The last step's result.</summary>
         public Touch Last { get { lock (gate) return shared; } }
 
-        /// <summary>From 0 to 1, how strongly a controller's motor should turn: RMS of the last 20 ms over `fullScale_N`.</summary>
+        /// <summary>From 0 to 1, how strongly a controller's motor should turn: RMS of the vibration above
+        /// LowestVibration_Hz in the last 20 ms over `fullScale_N`. 0 while the hand rests or presses, and without a position.</summary>
         public double Rumble(double fullScale_N)
         {
             lock (gate) return Math.Min(1.0, rumble / fullScale_N);
@@ -115,6 +119,7 @@ namespace Asperity.Feel
             Motion motion = Motion.Create();
             Touch none = Touch.Create(), touch = none;
             double period_s = 1.0 / rate_Hz, next_s = clock.Elapsed.TotalSeconds, last_s = next_s - period_s;
+            HighPass vibration = new HighPass(LowestVibration_Hz, rate_Hz);
             double square = 0.0, forget = Math.Exp(-period_s / 0.020);
             while (!stop)
             {
@@ -140,7 +145,13 @@ namespace Asperity.Feel
                 {
                     touch = none;
                 }
-                square = forget * square + (1.0 - forget) * touch.Vibration_N * touch.Vibration_N;
+                if (reset)
+                {
+                    vibration.StartAt(touch.Vibration_N);
+                    Vibration.Interrupt();
+                }
+                double vibration_N = vibration.Push(touch.Vibration_N);
+                square = has ? forget * square + (1.0 - forget) * vibration_N * vibration_N : 0.0;
                 lock (gate)
                 {
                     shared = touch;

@@ -24,6 +24,9 @@ class SecondOrderFilter {
     return y;
   }
 
+  // As if 0 had been its input for ever.
+  void clear() noexcept { s1_ = s2_ = 0.0; }
+
   // As if `x` had been its input for ever and 0 its output: what a high-pass makes of a constant.
   void start_high_pass_at(double x) noexcept {
     s1_ = -b0_ * x;

@@ -19,7 +19,11 @@ class RumbleBands {
         fast_(SecondOrderFilter::high_pass(split_Hz, rate_Hz)) {}
 
   // The filters as if `force_N` had been there for ever: the first after a gap, whose step nobody felt.
-  void start_at(double force_N) noexcept { high_pass_.start_high_pass_at(force_N); }
+  void start_at(double force_N) noexcept {
+    high_pass_.start_high_pass_at(force_N);
+    slow_.clear();
+    fast_.clear();
+  }
 
   void add(double force_N) noexcept {
     const double vibration_N = high_pass_(force_N);
