@@ -44,6 +44,8 @@ bool Command::resolve() {
     }
     try {
       set_field(all, trim(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
+    } catch (const UnknownSetting& error) {
+      throw UsageError("--set: " + with_list_of_settings(error));
     } catch (const Error& error) {
       throw UsageError(std::string("--set: ") + error.what());
     }

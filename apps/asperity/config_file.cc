@@ -45,6 +45,8 @@ void set_table(const std::string& file, const toml::table& table, const std::str
     const ConfigValue value = value_of(file, node);
     try {
       find_field(fields, path).set(value);
+    } catch (const UnknownSetting& error) {
+      fail(file, node.source(), with_list_of_settings(error));
     } catch (const Error& error) {
       fail(file, node.source(), error.what());
     }
@@ -52,6 +54,10 @@ void set_table(const std::string& file, const toml::table& table, const std::str
 }
 
 }  // namespace
+
+std::string with_list_of_settings(const UnknownSetting& error) {
+  return std::string(error.what()) + (error.suggests() ? "" : "; --print-config lists them all");
+}
 
 void load_config_file(const std::filesystem::path& path, const std::vector<ConfigField>& fields) {
   const std::string text = read_file(path, kLargestFile_bytes);

@@ -12,6 +12,9 @@ namespace asperity::app {
 // value that the field refuses.
 void load_config_file(const std::filesystem::path& path, const std::vector<ConfigField>& fields);
 
+// Its message, with the option that lists all settings where it suggests none.
+std::string with_list_of_settings(const UnknownSetting& error);
+
 // The fields as one JSON object, an object a group.
 std::string fields_to_json(const std::vector<ConfigField>& fields);
 

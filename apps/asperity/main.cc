@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <exception>
 #include <memory>
 #include <new>
@@ -11,6 +13,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/session/interrupt.h"
+#include "asperity/session/mesh_unit.h"
 #include "command.h"
 #include "command_examples.h"
 #include "commands.h"
@@ -80,6 +83,11 @@ void tell_failure(const std::string& what) {
   print_error(what + (named ? "" : "; what was written before stays: " + kept));
 }
 
+std::string mesh_unit_hint(const UnlikelyMetres& error) {
+  if (error.size_m() < 1.0) return ": --mesh-unit LENGTH, or --mesh-unit m if that is right";
+  return fmt::format(": --mesh-unit mm makes it {:.3g} mm, --mesh-unit m if a metre is right", error.size_m());
+}
+
 int run_command(Command& command) {
   const std::string name = command.parser().full_name();
   try {
@@ -95,6 +103,8 @@ int run_command(Command& command) {
     return kClosedPipe;
   } catch (const std::bad_alloc&) {
     tell_failure(name + ": not enough memory");
+  } catch (const UnlikelyMetres& error) {
+    tell_failure(command.with_input(error.what() + mesh_unit_hint(error)));
   } catch (const std::exception& error) {
     tell_failure(command.with_input(error.what()));
   }

@@ -8,6 +8,7 @@
 #include "asperity/scene/paint.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/swap_texture.h"
+#include "asperity/texture/material_limits.h"
 #include "asperity/texture/texture_file.h"
 #include "handles.h"
 #include "status.h"
@@ -27,10 +28,10 @@ auto& object_of(SceneHandle* scene, std::size_t object) {
   return of.objects[object];
 }
 
-double within(double value, double from, double to, const char* name) {
-  if (!(value >= from) || !(value <= to)) {
-    throw BadArgument(std::string(name) + " is " + std::to_string(value) + ", not from " + std::to_string(from) +
-                      " to " + std::to_string(to));
+double within(double value, const asperity::Range& range, const char* name) {
+  if (!(value >= range.low) || !(value <= range.high)) {
+    throw BadArgument(std::string(name) + " is " + std::to_string(value) + ", not from " + std::to_string(range.low) +
+                      " to " + std::to_string(range.high));
   }
   return value;
 }
@@ -160,7 +161,7 @@ asperity_status asperity_scene_paint(asperity_scene* scene, size_t object, const
     texture.file = &there(texture_path, "texture_path");
     texture.texture = asperity::read_texture(texture.file);
     asperity::HapticCoordinatesConfig config;
-    config.half_width_mm = 1e3 * within(half_width_m, 0.0, 1e3, "half_width_m");
+    config.half_width_mm = 1e3 * within(half_width_m, {0.0, 1e3}, "half_width_m");
     as_argument([&] { asperity::paint(painted, points, std::move(texture), config); });
     object_of(scene, object) = std::move(painted);
   });
@@ -177,15 +178,16 @@ asperity_status asperity_scene_set_texture(asperity_scene* scene, int index, con
 
 asperity_status asperity_scene_set_stiffness(asperity_scene* scene, double stiffness_N_per_m) {
   return guarded([&] {
-    there(scene, "scene").scene.stiffness_N_per_m = within(stiffness_N_per_m, 1.0, 1e6, "stiffness_N_per_m");
+    there(scene, "scene").scene.stiffness_N_per_m =
+        within(stiffness_N_per_m, asperity::kStiffnessLimits_N_per_m, "stiffness_N_per_m");
   });
 }
 
 asperity_status asperity_scene_set_friction(asperity_scene* scene, double sliding, double static_ratio) {
   return guarded([&] {
     asperity::Scene& of = there(scene, "scene").scene;
-    const double friction = within(sliding, 0.0, 10.0, "sliding");
-    of.static_friction_ratio = within(static_ratio, 1.0, 10.0, "static_ratio");
+    const double friction = within(sliding, asperity::kFrictionLimits, "sliding");
+    of.static_friction_ratio = within(static_ratio, asperity::kStaticFrictionRatioLimits, "static_ratio");
     of.friction = friction;
   });
 }

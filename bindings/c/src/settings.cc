@@ -62,6 +62,8 @@ asperity_status asperity_settings_set(asperity_settings* settings, const char* n
     asperity::RenderConfig changed = there(settings, "settings").render;
     try {
       asperity::set_field(fields_of(changed), &there(name, "name"), &there(value, "value"));
+    } catch (const asperity::UnknownSetting& fault) {
+      throw BadArgument(std::string(fault.what()) + (fault.suggests() ? "" : "; asperity_settings_name() lists them"));
     } catch (const asperity::Error& fault) {
       throw BadArgument(fault.what());
     }

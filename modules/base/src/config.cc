@@ -128,6 +128,23 @@ std::optional<ConfigValue> parse_value(FieldType type, std::string_view text) {
   }
 }
 
+// True if one path is the other without its first groups: render.tip_radius_m and tip_radius_m.
+bool differ_by_groups(std::string_view a, std::string_view b) {
+  if (a.size() < b.size()) std::swap(a, b);
+  return a.size() > b.size() && a.ends_with(b) && a[a.size() - b.size() - 1] == '.';
+}
+
+// The known path that was probably meant; empty if there is none.
+std::string meant_path(std::string_view path, const std::vector<std::string>& known) {
+  constexpr std::size_t kMost = 4;  // letters: names are long
+  std::string nearest = nearest_word(path, known, kMost);
+  if (!nearest.empty() || path.empty()) return nearest;
+  const auto alike = [&](const std::string& name) { return differ_by_groups(path, name); };
+  const auto found = std::find_if(known.begin(), known.end(), alike);
+  const bool is_only_one = found != known.end() && std::none_of(found + 1, known.end(), alike);
+  return is_only_one ? *found : "";
+}
+
 }  // namespace
 
 ConfigField& ConfigLister::add(std::string_view name, FieldType type, std::string_view description, Range range) {
@@ -250,11 +267,10 @@ const ConfigField& find_field(const std::vector<ConfigField>& fields, std::strin
   for (const auto& field : fields) {
     if (std::find(field.former.begin(), field.former.end(), path) != field.former.end()) return field;
   }
-  std::string message = "unknown setting '" + printable(path) + "'";
-  constexpr std::size_t kMost = 4;  // letters: names are long
-  const std::string nearest = nearest_word(path, known, kMost);
-  message += nearest.empty() ? "; --print-config lists them all" : "; did you mean '" + nearest + "'?";
-  throw Error(message);
+  const std::string nearest = meant_path(path, known);
+  throw UnknownSetting(
+      "unknown setting '" + printable(path) + "'" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"),
+      !nearest.empty());
 }
 
 void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view text) {

@@ -19,7 +19,7 @@ namespace {
 
 class Builder {
  public:
-  explicit Builder(const TriangleMesh& mesh) : mesh_(mesh) {}
+  Builder(const TriangleMesh& mesh, const Observer& observer) : mesh_(mesh), watch_(observer) {}
 
   TreeData build() {
     normalise();
@@ -51,6 +51,7 @@ class Builder {
   std::vector<Box> boxes_;  // of the triangles, in the order as it is being made
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> new_vertex_;
+  RowWatch watch_;
 };
 
 // Checks the mesh; finds the unit of length and the centre from the vertices that triangles use.
@@ -113,6 +114,7 @@ Range Builder::make_boxes() {
 }
 
 std::uint32_t Builder::add(const Range& range, int depth, std::uint32_t parent) {
+  watch_.next();
   return range.count() <= kMaxLeaf ? add_leaf(range, parent) : add_node(range, depth, parent);
 }
 
@@ -289,6 +291,6 @@ void Builder::add_face(std::uint32_t triangle) {
 
 }  // namespace
 
-TreeData build_tree(const TriangleMesh& mesh) { return Builder(mesh).build(); }
+TreeData build_tree(const TriangleMesh& mesh, const Observer& observer) { return Builder(mesh, observer).build(); }
 
 }  // namespace asperity::bvh

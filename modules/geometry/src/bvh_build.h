@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "bvh_layout.h"
 
@@ -24,7 +25,7 @@ struct TreeData {
 
 // The tree of a mesh: split top down by the surface area heuristic over bins (Wald 2007), where a leaf costs
 // its blocks of eight triangles, up to eight parts at once. The same mesh gives the same tree. Throws Error for
-// a mesh without triangles, an index out of range, a vertex that is not finite, or more than 2^30 vertices.
-TreeData build_tree(const TriangleMesh& mesh);
+// a mesh without triangles, an index out of range, a vertex that is not finite, or more than 2^30 vertices; Cancelled.
+TreeData build_tree(const TriangleMesh& mesh, const Observer& observer = {});
 
 }  // namespace asperity::bvh

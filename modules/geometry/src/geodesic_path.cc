@@ -222,7 +222,7 @@ MeshPath trace_strip(const TriangleMesh& mesh, const TriangleStrip& strip, const
 }  // namespace
 
 GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from,
-                           const MeshPoint& to) {
+                           const MeshPoint& to, const Observer& observer) {
   check_mesh_point(mesh, adjacency, from);
   check_mesh_point(mesh, adjacency, to);
   const Vector3d start = position_m(mesh, from);
@@ -231,6 +231,7 @@ GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
   GeodesicPath out;
   const auto limit = static_cast<int>(std::min<std::size_t>(1000 + 10 * strip.faces.size(), 1'000'000));
   for (;;) {
+    observer.update("path", 0.0);
     const UnfoldedStrip flat = unfold_strip(mesh, adjacency, strip, start, goal);
     const std::vector<Bend> bends = shortest_bends(flat);
     const auto detour = best_detour(mesh, adjacency, strip, flat, bends);
@@ -244,13 +245,13 @@ GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
   }
 }
 
-GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency,
-                           std::span<const MeshPoint> through) {
+GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, std::span<const MeshPoint> through,
+                           const Observer& observer) {
   if (through.size() < 2)
     throw Error("geodesic path: " + std::to_string(through.size()) + " points; at least two are needed");
   GeodesicPath out;
   for (std::size_t i = 0; i + 1 < through.size(); ++i) {
-    const GeodesicPath piece = geodesic_path(mesh, adjacency, through[i], through[i + 1]);
+    const GeodesicPath piece = geodesic_path(mesh, adjacency, through[i], through[i + 1], observer);
     out.locally_shortest &= piece.locally_shortest;
     out.detours += piece.detours;
     const double so_far_m = i == 0 ? 0.0 : out.path.s_m.back();

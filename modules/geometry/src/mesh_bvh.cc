@@ -85,8 +85,8 @@ std::vector<const bvh::Kernels*> supported_kernels() {
   return out;
 }
 
-MeshBvh::MeshBvh(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
-  tree_->data = bvh::build_tree(mesh);
+MeshBvh::MeshBvh(const TriangleMesh& mesh, const Observer& observer) : tree_(std::make_unique<Tree>()) {
+  tree_->data = bvh::build_tree(mesh, observer);
   const bvh::TreeData& data = tree_->data;
   tree_->view = {data.nodes.data(),   reinterpret_cast<const unsigned char*>(data.pool.data()),
                  data.faces.data(),   data.vertices.data(),

@@ -83,11 +83,11 @@ NormalFoot foot_at(const MeshSurface& surface, const Eigen::Vector3d& p_m, std::
 
 }  // namespace
 
-MeshSurface::MeshSurface(const TriangleMesh& triangles)
+MeshSurface::MeshSurface(const TriangleMesh& triangles, const Observer& observer)
     : mesh(weld_vertices(triangles)),
       adjacency(make_adjacency(mesh)),
       normals(corner_normals(mesh, adjacency)),
-      bvh(mesh) {}
+      bvh(mesh, observer) {}
 
 std::uint32_t triangle_across(const MeshAdjacency& adjacency, std::uint32_t triangle, std::size_t edge) noexcept {
   const std::uint32_t index = adjacency.edge_of_triangle[triangle][edge];

@@ -23,8 +23,8 @@ constexpr Triangle kNoTriangle{kNoIndex, kNoIndex, kNoIndex};
 
 class ObjParser {
  public:
-  ObjParser(std::string_view text, const std::string& name, const MeshLimits& limits)
-      : lines_(text, name, limits.line_bytes),
+  ObjParser(std::string_view text, const std::string& name, const MeshLimits& limits, const Observer& observer)
+      : lines_(text, name, limits.line_bytes, observer),
         name_(name),
         limits_(limits),
         problems_(mesh_.problems),
@@ -242,10 +242,10 @@ class ObjParser {
 
 }  // namespace
 
-MeshFile parse_obj(std::string_view text, const std::string& name, const MeshLimits& limits) {
+MeshFile parse_obj(std::string_view text, const std::string& name, const MeshLimits& limits, const Observer& observer) {
   if (text.size() > limits.file_bytes)
     throw Error(name + ": is larger than " + std::to_string(limits.file_bytes) + " bytes");
-  return ObjParser(text, name, limits).parse();
+  return ObjParser(text, name, limits, observer).parse();
 }
 
 }  // namespace asperity

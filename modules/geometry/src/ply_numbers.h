@@ -11,6 +11,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/little_endian.h"
+#include "asperity/base/progress.h"
 #include "asperity/base/text.h"
 #include "ply_header.h"
 
@@ -19,11 +20,12 @@ namespace asperity {
 // The numbers after the header, one after another.
 class PlyNumbers {
  public:
-  PlyNumbers(std::string_view bytes, const PlyHeader& header, const std::string& name)
-      : rest_(bytes.substr(header.bytes)), order_(header.order), name_(name) {}
+  PlyNumbers(std::string_view bytes, const PlyHeader& header, const std::string& name, const Observer& observer)
+      : rest_(bytes.substr(header.bytes)), order_(header.order), name_(name), watch_(observer) {}
 
-  // `element` and `row` are where messages say they are.
+  // `element` and `row` are where messages say they are. Throws Cancelled if the observer says so.
   void set_place(const PlyElement& element, std::size_t row) {
+    watch_.next();
     element_ = &element;
     row_ = row;
   }
@@ -111,6 +113,7 @@ class PlyNumbers {
   const std::string& name_;
   const PlyElement* element_ = nullptr;
   std::size_t row_ = 0;
+  RowWatch watch_;
 };
 
 }  // namespace asperity

@@ -17,10 +17,10 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits, 
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  if (extension == ".obj") return read_obj(path, limits);
-  if (extension == ".ply") return read_ply(path, limits);
-  if (extension == ".stl") return read_stl(path, limits);
-  if (extension == ".off") return read_off(path, limits);
+  if (extension == ".obj") return read_obj(path, limits, observer);
+  if (extension == ".ply") return read_ply(path, limits, observer);
+  if (extension == ".stl") return read_stl(path, limits, observer);
+  if (extension == ".off") return read_off(path, limits, observer);
   if (extension == ".gltf" || extension == ".glb") return read_gltf(path, limits, observer);
   throw Error(path.string() + ": '" + printable(extension) +
               "' is not a mesh that can be read; .obj, .ply, .stl, .off, .gltf and .glb are");

@@ -112,8 +112,8 @@ class LibraryReader {
 
 }  // namespace
 
-MeshFile read_obj(const fs::path& path, const MeshLimits& limits) {
-  MeshFile mesh = parse_obj(read_file(path, limits.file_bytes), path.string(), limits);
+MeshFile read_obj(const fs::path& path, const MeshLimits& limits, const Observer& observer) {
+  MeshFile mesh = parse_obj(read_file(path, limits.file_bytes), path.string(), limits, observer);
   LibraryReader(path, mesh).read();
   return mesh;
 }

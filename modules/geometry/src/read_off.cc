@@ -18,8 +18,8 @@ namespace {
 
 class OffParser {
  public:
-  OffParser(std::string_view text, const std::string& name, const MeshLimits& limits)
-      : lines_(text, name, limits.line_bytes),
+  OffParser(std::string_view text, const std::string& name, const MeshLimits& limits, const Observer& observer)
+      : lines_(text, name, limits.line_bytes, observer),
         text_bytes_(text.size()),
         name_(name),
         limits_(limits),
@@ -161,12 +161,12 @@ class OffParser {
 
 }  // namespace
 
-MeshFile parse_off(std::string_view text, const std::string& name, const MeshLimits& limits) {
-  return OffParser(text, name, limits).parse();
+MeshFile parse_off(std::string_view text, const std::string& name, const MeshLimits& limits, const Observer& observer) {
+  return OffParser(text, name, limits, observer).parse();
 }
 
-MeshFile read_off(const std::filesystem::path& path, const MeshLimits& limits) {
-  return parse_off(read_file(path, limits.file_bytes), path.string(), limits);
+MeshFile read_off(const std::filesystem::path& path, const MeshLimits& limits, const Observer& observer) {
+  return parse_off(read_file(path, limits.file_bytes), path.string(), limits, observer);
 }
 
 }  // namespace asperity

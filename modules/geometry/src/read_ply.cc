@@ -41,9 +41,9 @@ double full_scale(PlyType type) {
 
 class PlyParser {
  public:
-  PlyParser(std::string_view bytes, const std::string& name, const MeshLimits& limits)
+  PlyParser(std::string_view bytes, const std::string& name, const MeshLimits& limits, const Observer& observer)
       : header_(parse_ply_header(bytes, name)),
-        numbers_(bytes, header_, name),
+        numbers_(bytes, header_, name, observer),
         name_(name),
         limits_(limits),
         problems_(mesh_.problems) {}
@@ -291,12 +291,13 @@ class PlyParser {
 
 }  // namespace
 
-MeshFile parse_ply(std::string_view bytes, const std::string& name, const MeshLimits& limits) {
-  return PlyParser(bytes, name, limits).parse();
+MeshFile parse_ply(std::string_view bytes, const std::string& name, const MeshLimits& limits,
+                   const Observer& observer) {
+  return PlyParser(bytes, name, limits, observer).parse();
 }
 
-MeshFile read_ply(const std::filesystem::path& path, const MeshLimits& limits) {
-  return parse_ply(read_file(path, limits.file_bytes), path.string(), limits);
+MeshFile read_ply(const std::filesystem::path& path, const MeshLimits& limits, const Observer& observer) {
+  return parse_ply(read_file(path, limits.file_bytes), path.string(), limits, observer);
 }
 
 }  // namespace asperity

@@ -30,8 +30,13 @@ std::string to_lower(std::string_view text) {
 
 class StlParser {
  public:
-  StlParser(std::string_view bytes, const std::string& name, const MeshLimits& limits)
-      : bytes_(bytes), name_(name), limits_(limits), merger_(mesh_.vertices), problems_(mesh_.problems) {}
+  StlParser(std::string_view bytes, const std::string& name, const MeshLimits& limits, const Observer& observer)
+      : bytes_(bytes),
+        name_(name),
+        limits_(limits),
+        watch_(observer),
+        merger_(mesh_.vertices),
+        problems_(mesh_.problems) {}
 
   MeshFile parse() {
     const std::size_t facets =
@@ -93,6 +98,7 @@ class StlParser {
 
   template <class Place>
   void add_triangle(const Eigen::Vector3d& normal, const Place& place) {
+    watch_.next();
     mesh_.triangles.push_back({merger_.add(corners_[0]), merger_.add(corners_[1]), merger_.add(corners_[2])});
     if ((corners_[1] - corners_[0]).cross(corners_[2] - corners_[0]).dot(normal) < 0.0) {
       problems_.count("reversed_normal", [&] { return place() + ": the normal points against the corners' order"; });
@@ -167,6 +173,7 @@ class StlParser {
   const std::string& name_;
   const MeshLimits& limits_;
   MeshFile mesh_;
+  RowWatch watch_;
   VertexMerger merger_;
   ProblemCounter problems_;
   std::array<Eigen::Vector3d, 3> corners_;
@@ -174,12 +181,13 @@ class StlParser {
 
 }  // namespace
 
-MeshFile parse_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits) {
-  return StlParser(bytes, name, limits).parse();
+MeshFile parse_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits,
+                   const Observer& observer) {
+  return StlParser(bytes, name, limits, observer).parse();
 }
 
-MeshFile read_stl(const std::filesystem::path& path, const MeshLimits& limits) {
-  return parse_stl(read_file(path, limits.file_bytes), path.string(), limits);
+MeshFile read_stl(const std::filesystem::path& path, const MeshLimits& limits, const Observer& observer) {
+  return parse_stl(read_file(path, limits.file_bytes), path.string(), limits, observer);
 }
 
 }  // namespace asperity

@@ -5,8 +5,9 @@
 
 namespace asperity {
 
-StatementLines::StatementLines(std::string_view text, const std::string& name, std::size_t line_bytes)
-    : name_(name), text_(text), line_bytes_(line_bytes) {
+StatementLines::StatementLines(std::string_view text, const std::string& name, std::size_t line_bytes,
+                               const Observer& observer)
+    : name_(name), text_(text), line_bytes_(line_bytes), watch_(observer) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
   if (text_.starts_with("\xFE\xFF") || text_.starts_with("\xFF\xFE")) {
     throw Error(name_ + ": is UTF-16 text; save it as UTF-8 or ASCII");
@@ -51,6 +52,7 @@ std::string_view StatementLines::joined(std::string_view first) {
 
 bool StatementLines::next() {
   while (!text_.empty()) {
+    watch_.next();
     std::string_view line = physical_line();
     line_ = lines_read_;
     if (line.empty() || line.front() == '#') continue;

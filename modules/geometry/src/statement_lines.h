@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
+
 namespace asperity {
 
 // The lines of an OBJ or MTL file as statements: a UTF-8 byte order mark, comments and blank lines are
@@ -11,9 +13,9 @@ namespace asperity {
 class StatementLines {
  public:
   // Throws Error if the text is not made of bytes that such a file has.
-  StatementLines(std::string_view text, const std::string& name, std::size_t line_bytes);
+  StatementLines(std::string_view text, const std::string& name, std::size_t line_bytes, const Observer& observer = {});
 
-  // Goes to the next statement; false at the end.
+  // Goes to the next statement; false at the end. Throws Cancelled if the observer says so.
   bool next();
 
   std::string_view keyword() const { return keyword_; }
@@ -34,6 +36,7 @@ class StatementLines {
   std::string_view keyword_;
   std::string_view rest_;
   std::string buffer_;
+  RowWatch watch_;
 };
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }

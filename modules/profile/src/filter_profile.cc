@@ -71,9 +71,10 @@ void subtract_line(std::vector<double>& z) {
   for (std::size_t i = 0; i < z.size(); ++i) z[i] -= slope * (static_cast<double>(i) - mean_x);
 }
 
-std::vector<double> mean_line_m(std::span<const double> z, double spacing_m, double cutoff_mm, ProfileFilter filter) {
-  return filter == ProfileFilter::kRobust ? robust_gaussian_mean_line_m(z, spacing_m, 1e-3 * cutoff_mm)
-                                          : gaussian_mean_line_m(z, spacing_m, 1e-3 * cutoff_mm);
+std::vector<double> mean_line_m(std::span<const double> z, double spacing_m, double cutoff_mm, ProfileFilter filter,
+                                const Observer& observer) {
+  return filter == ProfileFilter::kRobust ? robust_gaussian_mean_line_m(z, spacing_m, 1e-3 * cutoff_mm, observer)
+                                          : gaussian_mean_line_m(z, spacing_m, 1e-3 * cutoff_mm, observer);
 }
 
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -94,25 +95,26 @@ bool cut_ends(std::vector<double>& z, double spacing_m, double length_mm, std::s
 
 }  // namespace
 
-FilteredProfiles filter_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
+FilteredProfiles filter_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config,
+                                const Observer& observer) {
   check_profile(height_m, spacing_m, config);
   FilteredProfiles out;
   std::vector<double>& z = out.primary_m;
   z.assign(height_m.begin(), height_m.end());
   subtract_mean(z);
   if (config.form == ProfileForm::kLine) subtract_line(z);
-  if (config.lambda_s_mm > 0.0) z = gaussian_mean_line_m(z, spacing_m, config.lambda_s_mm * 1e-3);
+  if (config.lambda_s_mm > 0.0) z = gaussian_mean_line_m(z, spacing_m, config.lambda_s_mm * 1e-3, observer);
   if (!(config.lambda_c_mm > 0.0)) {
     if (config.lambda_s_mm > 0.0) subtract_mean(z);
     out.roughness_m = z;
     return out;
   }
-  out.waviness_m = mean_line_m(z, spacing_m, config.lambda_c_mm, config.filter);
+  out.waviness_m = mean_line_m(z, spacing_m, config.lambda_c_mm, config.filter, observer);
   out.roughness_m = difference(z, out.waviness_m);
   double waviness_end_mm = 0.5 * config.lambda_c_mm;
   if (config.lambda_f_mm > 0.0) {
     out.waviness_m =
-        difference(out.waviness_m, mean_line_m(out.waviness_m, spacing_m, config.lambda_f_mm, config.filter));
+        difference(out.waviness_m, mean_line_m(out.waviness_m, spacing_m, config.lambda_f_mm, config.filter, observer));
     waviness_end_mm += 0.5 * config.lambda_f_mm;
   }
   if (config.ends == ProfileEnds::kCut) {

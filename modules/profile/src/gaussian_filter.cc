@@ -49,18 +49,22 @@ Present present(std::span<const double> height_m) {
 
 // The same by Fourier transforms, in time that does not grow with the cut-off: the local line everywhere, whose slope
 // is 0 to rounding where the window is whole.
-std::vector<double> mean_line_by_moments(std::span<const double> height_m, double spacing_m, double width_m) {
+std::vector<double> mean_line_by_moments(std::span<const double> height_m, double spacing_m, double width_m,
+                                         const Observer& observer) {
+  const auto check = [&observer] { observer.update("filter", 0.0); };  // between two transforms
   const Present of = present(height_m);
   const std::size_t n = height_m.size();
   std::vector<double> s0, s1, s2, t0, t1;
   {
     const GaussianMoments moments(n, spacing_m, width_m, 0);
-    s0 = moments.of(of.weight), t0 = moments.of(of.height_m);
+    check(), s0 = moments.of(of.weight), check(), t0 = moments.of(of.height_m);
   }
+  check();
   {
     const GaussianMoments moments(n, spacing_m, width_m, 1);
-    s1 = moments.of(of.weight), t1 = moments.of(of.height_m);
+    check(), s1 = moments.of(of.weight), check(), t1 = moments.of(of.height_m);
   }
+  check();
   s2 = GaussianMoments(n, spacing_m, width_m, 2).of(of.weight);
   std::vector<double> out(n, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,7 +79,8 @@ constexpr double kLongWork = 2e6;  // products beyond which transforms are faste
 
 }  // namespace
 
-std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m) {
+std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m,
+                                         const Observer& observer) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
     throw Error("the spacing " + number_text(spacing_m) + " m is not a positive length");
   if (!(cutoff_m > 0.0) || !std::isfinite(cutoff_m))
@@ -86,7 +91,7 @@ std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, doubl
   const auto reach = static_cast<std::ptrdiff_t>(std::min(std::ceil(cutoff_m / spacing_m), static_cast<double>(n)));
   constexpr std::ptrdiff_t kShort = 64;  // summed directly by GaussianMoments too
   if (reach > kShort && static_cast<double>(n) * static_cast<double>(reach) > kLongWork)
-    return mean_line_by_moments(height_m, spacing_m, alpha * cutoff_m);
+    return mean_line_by_moments(height_m, spacing_m, alpha * cutoff_m, observer);
   std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
   double total = 0.0;
   for (std::size_t k = 0; k < weight.size(); ++k) {
@@ -100,7 +105,9 @@ std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, doubl
     missing_before[i + 1] = missing_before[i] + (std::isnan(height_m[i]) ? 1 : 0);
 
   std::vector<double> mean_line_m(height_m.size(), std::numeric_limits<double>::quiet_NaN());
+  RowWatch watch(observer);
   for (std::ptrdiff_t i = 0; i < n; ++i) {
+    watch.next();
     const double* centre = height_m.data() + i;
     if (std::isnan(*centre)) continue;
     const bool whole =

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "asperity/base/progress.h"
+
 namespace asperity {
 
 // The mean line of a uniform profile by the Gaussian filter of ISO 16610-21: weights
@@ -10,6 +12,7 @@ namespace asperity {
 // window meets an end or a nan, the local straight line with these weights is evaluated instead, which
 // keeps lines exact (moment criterion of ISO/TS 16610-28). nan heights stay nan. Takes time in
 // proportion to samples times the logarithm of their number. Throws Error unless both lengths are positive.
-std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m);
+std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m,
+                                         const Observer& observer = {});
 
 }  // namespace asperity

@@ -80,17 +80,17 @@ double mean_of_five(std::vector<double> values, const Before& before) {
 }
 
 void measure_features(std::span<const double> z, double spacing_m, const RoughnessConfig& config,
-                      RoughnessResult& result) {
+                      RoughnessResult& result, const Observer& observer) {
   result.RSm_m = result.R5p_m = result.R5v_m = result.R10z_m = kNan;
   if (!(result.Rz_m > 0.0)) return;
   ElementWidths widths;
   PeaksAndPits found;
   const double min_width_m = config.element_width * result.length_m / static_cast<double>(config.sections);
   for (const auto stretch : gap_free_stretches(z)) {
-    const auto more = element_widths(stretch, spacing_m, config.element_height * result.Rz_m, min_width_m);
+    const auto more = element_widths(stretch, spacing_m, config.element_height * result.Rz_m, min_width_m, observer);
     widths.sum_m += more.sum_m;
     widths.count += more.count;
-    append_peaks_and_pits(stretch, config.peak_prominence * result.Rz_m, found);
+    append_peaks_and_pits(stretch, config.peak_prominence * result.Rz_m, found, observer);
   }
   result.elements = widths.count;
   if (widths.count > 0) result.RSm_m = widths.sum_m / static_cast<double>(widths.count);
@@ -121,15 +121,19 @@ std::vector<double> roughness_profile_m(std::span<const double> height_m, double
   return filter_profile(height_m, spacing_m, config).roughness_m;
 }
 
-RoughnessResult measure_roughness(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
-  const auto z = roughness_profile_m(height_m, spacing_m, config);
+RoughnessResult measure_roughness(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config,
+                                  const Observer& observer) {
+  observer.update("roughness", 0.0);
+  const auto z = filter_profile(height_m, spacing_m, config, observer).roughness_m;
+  observer.update("roughness", 0.5);
   RoughnessResult result;
   result.samples = z.size();
   result.missing = count_missing(z);
   result.length_m = static_cast<double>(z.size()) * spacing_m;
   measure_heights(z, result);
   measure_sections(z, config, result);
-  measure_features(z, spacing_m, config, result);
+  measure_features(z, spacing_m, config, result, observer);
+  observer.update("roughness", 0.9);
   const auto sorted = descending(z);
   result.Rcm10_m = material_ratio_level_m(sorted, 10.0);
   result.Rcm50_m = material_ratio_level_m(sorted, 50.0);

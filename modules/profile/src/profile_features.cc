@@ -17,7 +17,8 @@ struct Portion {
   double width() const { return end - start; }
 };
 
-std::vector<Portion> portions_between_crossings(std::span<const double> z) {
+std::vector<Portion> portions_between_crossings(std::span<const double> z, const Observer& observer) {
+  RowWatch watch(observer);
   std::vector<Portion> portions;
   // Samples on the mean line belong to the portion before them; leading ones to the first.
   std::size_t first = 0;
@@ -26,6 +27,7 @@ std::vector<Portion> portions_between_crossings(std::span<const double> z) {
   Portion current{0.0, 0.0, 0.0, z[first] > 0.0, true};
   std::size_t last_off_line = first;
   for (std::size_t i = first; i < z.size(); ++i) {
+    watch.next();
     if (z[i] == 0.0) continue;
     if ((z[i] > 0.0) != current.hill) {
       // Over a run of zeros the crossing is its middle; otherwise where the straight line cuts zero.
@@ -48,9 +50,12 @@ std::vector<Portion> portions_between_crossings(std::span<const double> z) {
 // Drops the portions that `keep` refuses and joins the neighbours of equal side that then meet. Where a
 // hill and a pit meet over dropped portions, they meet in the middle of the crossings between them.
 template <class Keep>
-std::vector<Portion> join_over_dropped(const std::vector<Portion>& portions, const Keep& keep) {
+std::vector<Portion> join_over_dropped(const std::vector<Portion>& portions, const Observer& observer,
+                                       const Keep& keep) {
+  RowWatch watch(observer);
   std::vector<Portion> joined;
   for (const Portion& portion : portions) {
+    watch.next();
     if (!keep(portion)) continue;
     if (joined.empty()) {
       joined.push_back(portion);
@@ -93,13 +98,13 @@ void ElementWidths::add(const ElementWidths& more) {
 }
 
 ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m, double min_height_m,
-                             double min_width_m) {
+                             double min_width_m, const Observer& observer) {
   ElementWidths widths;
   const double min_width = min_width_m / spacing_m;
-  auto portions = portions_between_crossings(stretch_m);
-  portions = join_over_dropped(portions, [&](const Portion& p) { return p.height_m >= min_height_m; });
+  auto portions = portions_between_crossings(stretch_m, observer);
+  portions = join_over_dropped(portions, observer, [&](const Portion& p) { return p.height_m >= min_height_m; });
   // How wide a portion is that an end cuts off is not known: it stays, and closes no element.
-  portions = join_over_dropped(portions, [&](const Portion& p) { return p.cut || p.width() >= min_width; });
+  portions = join_over_dropped(portions, observer, [&](const Portion& p) { return p.cut || p.width() >= min_width; });
   for (std::size_t i = 1; i + 2 < portions.size(); ++i) {
     const double width_m = (portions[i + 1].end - portions[i].start) * spacing_m;
     widths.sum_m += width_m;
@@ -114,12 +119,15 @@ ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m
   return widths;
 }
 
-void append_peaks_and_pits(std::span<const double> stretch_m, double prominence_m, PeaksAndPits& found) {
+void append_peaks_and_pits(std::span<const double> stretch_m, double prominence_m, PeaksAndPits& found,
+                           const Observer& observer) {
+  RowWatch watch(observer);
   if (stretch_m.empty()) return;
   const double* lowest = &stretch_m[0];
   const double* highest = lowest;
   enum class Seeking { kEither, kPeak, kPit } seeking = Seeking::kEither;
   for (const double& z : stretch_m) {
+    watch.next();
     if (z < *lowest) lowest = &z;
     if (z > *highest) highest = &z;
     if (seeking != Seeking::kPit && z < *highest && *highest - z >= prominence_m) {

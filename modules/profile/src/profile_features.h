@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "asperity/base/progress.h"
+
 namespace asperity {
 
 // The stretches of samples between gaps, in order.
@@ -26,7 +28,7 @@ struct ElementWidths {
 // same. Hills and pits lower than `min_height_m`, then those narrower than `min_width_m`, are taken
 // into their neighbours.
 ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m, double min_height_m,
-                             double min_width_m);
+                             double min_width_m, const Observer& observer = {});
 
 struct PeaksAndPits {
   std::vector<double> peak_m;
@@ -36,6 +38,7 @@ struct PeaksAndPits {
 
 // The peaks that stand out from the pits on both sides by at least `prominence_m`, and the pits that do
 // the same downwards (Wolf pruning); extremes that an end cuts off are not counted.
-void append_peaks_and_pits(std::span<const double> stretch_m, double prominence_m, PeaksAndPits& found);
+void append_peaks_and_pits(std::span<const double> stretch_m, double prominence_m, PeaksAndPits& found,
+                           const Observer& observer = {});
 
 }  // namespace asperity

@@ -28,7 +28,8 @@ double parabola_at_zero(const std::array<double, 5>& m, const std::array<double,
 
 }  // namespace
 
-std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m) {
+std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m,
+                                                const Observer& observer) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
     throw Error("the spacing " + number_text(spacing_m) + " m is not a positive length");
   if (!(cutoff_m > 0.0) || !std::isfinite(cutoff_m))
@@ -38,20 +39,27 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
   constexpr double kTolerance = 1e-4;
   const std::size_t n = height_m.size();
   std::vector<GaussianMoments> moments;
-  for (int degree = 0; degree <= 4; ++degree) moments.emplace_back(n, spacing_m, kAlpha * cutoff_m, degree);
+  for (int degree = 0; degree <= 4; ++degree) {
+    observer.update("filter", 0.0);
+    moments.emplace_back(n, spacing_m, kAlpha * cutoff_m, degree);
+  }
 
   std::vector<double> line_m(height_m.size(), kNan), trust(height_m.size());
   for (std::size_t i = 0; i < trust.size(); ++i) trust[i] = std::isnan(height_m[i]) ? 0.0 : 1.0;
   const double least_m = least_biweight_limit(height_m);
   double scale_m = 0.0;
   std::size_t trusted = 0, trusted_before = 0;
+  const auto moment = [&](std::size_t k, const std::vector<double>& of) {
+    observer.update("filter", 0.0);
+    return moments[k].of(of);
+  };
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     std::vector<double> weighted_m(n);
     for (std::size_t i = 0; i < n; ++i) weighted_m[i] = trust[i] > 0.0 ? trust[i] * height_m[i] : 0.0;
     std::array<std::vector<double>, 5> m;
     std::array<std::vector<double>, 3> t;
-    for (std::size_t k = 0; k < m.size(); ++k) m[k] = moments[k].of(trust);
-    for (std::size_t k = 0; k < t.size(); ++k) t[k] = moments[k].of(weighted_m);
+    for (std::size_t k = 0; k < m.size(); ++k) m[k] = moment(k, trust);
+    for (std::size_t k = 0; k < t.size(); ++k) t[k] = moment(k, weighted_m);
     if (moments[0].by_transforms()) {
       const double little = kLittleTrust * moments[0].total();
       for (std::size_t i = 0; i < n; ++i) {

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "asperity/base/progress.h"
+
 namespace asperity {
 
 // The mean line of a uniform profile by the robust Gaussian regression filter of ISO 16610-31, of second degree: at
@@ -16,6 +18,7 @@ namespace asperity {
 //
 // Source: the method's publications, Seewig, J. Phys. Conf. Ser. 13, 254 (2005), and Brinkmann, Bodschwinna and Lemke,
 // Int. J. Mach. Tools Manuf. 41, 2153 (2001); the standard's own text was not read.
-std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m);
+std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m,
+                                                const Observer& observer = {});
 
 }  // namespace asperity

@@ -232,8 +232,9 @@ void lay_textures(const SceneObject& object, RenderModel& model, const RenderCon
   out.texture_xy_m.clear();
 }
 
-RenderObject make_object(const Scene& scene, const SceneObject& object, const RenderConfig& config,
-                         RenderModel& model) {
+RenderObject make_object(const Scene& scene, const SceneObject& object, const RenderConfig& config, RenderModel& model,
+                         const Observer& observer) {
+  observer.update("scene", 0.0);
   if (!object.mesh.haptic.empty() && object.mesh.haptic.size() != object.mesh.triangles.size())
     throw Error(std::to_string(object.mesh.haptic.size()) + " haptic triangles for " +
                 std::to_string(object.mesh.triangles.size()));
@@ -244,7 +245,8 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
   if (!object.T_world_mesh.rotation.coeffs().allFinite() || !object.T_world_mesh.translation_m.allFinite())
     throw Error("its pose is not finite");
   TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
-  MeshBvh bvh(mesh);  // throws for indices and numbers that are no use
+  MeshBvh bvh(mesh, observer);  // throws for indices and numbers that are no use
+  observer.update("scene", 0.3);
   check_extent(mesh);
   RenderObject out{.mesh = std::move(mesh),
                    .bvh = std::move(bvh),
@@ -260,10 +262,14 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
                    .corner_material = {},
                    .bare_material = {}};
   out.normals = facet_normals(out.mesh);
+  observer.update("scene", 0.5);
   out.closed = is_closed(out.mesh);
+  observer.update("scene", 0.7);
   out.id = hash_of(out.mesh);
   lay_textures(object, model, config, out);
+  observer.update("scene", 0.8);
   out.border = make_texture_border(out, model.textures, config.border_fade_m);
+  observer.update("scene", 0.9);
   if (config.force_shading) {
     const TriangleMesh welded = weld_vertices(out.mesh);
     out.corner_normals = corner_normals(welded, make_adjacency(welded));
@@ -274,7 +280,7 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
 
 }  // namespace
 
-RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
+RenderModel make_render_model(const Scene& scene, const RenderConfig& config, const Observer& observer) {
   check_render_config(config);
   if (scene.objects.empty()) throw Error("rendering: a scene without objects");
   if (scene.objects.size() > ProxyState::kMostObjects)
@@ -284,7 +290,9 @@ RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
   model.config = config;
   for (std::size_t k = 0; k < scene.objects.size(); ++k) {
     try {
-      model.objects.push_back(make_object(scene, scene.objects[k], config, model));
+      model.objects.push_back(make_object(scene, scene.objects[k], config, model, observer));
+    } catch (const Cancelled&) {
+      throw;
     } catch (const Error& error) {
       throw Error("rendering: object " + std::to_string(k) + " (" + printable(scene.objects[k].mesh_file) +
                   "): " + error.what());

@@ -37,7 +37,7 @@ MeshPath evenly_spaced(const MeshPath& path) {
   return out;
 }
 
-VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> picks_mesh_m) {
+VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> picks_mesh_m, const Observer& observer) {
   if (picks_mesh_m.size() < 2)
     throw Error("paint: " + std::to_string(picks_mesh_m.size()) + " points; at least two are needed");
   VirtualPath out;
@@ -48,7 +48,7 @@ VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> p
     through.push_back(connected_point(surface.mesh, surface.adjacency, nearest.triangle, nearest.p_m));
     out.pick_distance_m.push_back(nearest.distance_m);
   }
-  const GeodesicPath shortest = geodesic_path(surface.mesh, surface.adjacency, through);
+  const GeodesicPath shortest = geodesic_path(surface.mesh, surface.adjacency, through, observer);
   if (!(shortest.path.s_m.back() > 0.0)) throw Error("paint: the points fall together on the mesh");
   out.locally_shortest = shortest.locally_shortest;
   out.path = evenly_spaced(shortest.path);
@@ -88,18 +88,21 @@ void set_origin(const SceneObject& object, std::span<const Vector3d> picks_mesh_
 }  // namespace
 
 VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Vector3d> picks_mesh_m) {
-  return path_through(MeshSurface(mesh), picks_mesh_m);
+  return path_through(MeshSurface(mesh), picks_mesh_m, {});
 }
 
 PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, SceneTexture texture,
-                  const HapticCoordinatesConfig& config, LayAt at) {
+                  const HapticCoordinatesConfig& config, LayAt at, const Observer& observer) {
   if (texture.index < 0) throw Error("paint: texture index " + std::to_string(texture.index) + " is negative");
-  const MeshSurface surface(to_metres(object.mesh, object.unit_m));
+  observer.update("painting", 0.0);
+  const MeshSurface surface(to_metres(object.mesh, object.unit_m), observer);
   PaintResult out;
-  out.path = path_through(surface, picks_mesh_m);
+  out.path = path_through(surface, picks_mesh_m, observer);
+  observer.update("painting", 0.5);
   HapticCoordinates coordinates = assign_haptic_coordinates(surface.mesh, surface.adjacency, {out.path.path}, config);
   out.warp = std::move(coordinates.warps[0]);
   out.problems = std::move(coordinates.problems);
+  observer.update("painting", 0.9);
   warn_of_distant_picks(surface.mesh, out);
   if (!out.path.locally_shortest)
     out.problems.push_back({"path_not_shortest", "the path between two points could still be shortened", 1});

@@ -58,7 +58,11 @@ Scene read_scene_input(SceneInput& input, FeelSettings& settings, const Observer
   fs::path path(input.scene);
   if (fs::is_directory(path)) path /= "scene.json";
   Scene scene = read_scene(path, observer);
-  if (input.mesh_unit_m) set_mesh_unit(scene, path, *input.mesh_unit_m);
+  if (input.mesh_unit_m) {
+    set_mesh_unit(scene, path, *input.mesh_unit_m);
+  } else {
+    refuse_unlikely_metres(scene.objects.front().mesh, path);
+  }
   return scene;
 }
 

@@ -32,16 +32,9 @@ void refuse_unlikely_metres(const MeshFile& mesh, const std::filesystem::path& f
   const double size_m = size_of_mesh_m(mesh, 1.0);
   if (!(size_m > 0.0) || (size_m >= kSmallest_m && size_m <= kLargest_m)) return;
   const std::string name = printable(file.string(), 200);
-  if (size_m < kSmallest_m) {
-    throw Error(
-        fmt::format("{}: the mesh is {:.3g} mm large if its unit is a metre; state its unit: --mesh-unit LENGTH, "
-                    "or --mesh-unit m if that is right",
-                    name, 1e3 * size_m));
-  }
-  throw Error(
-      fmt::format("{}: the mesh is {:.3g} m large if its unit is a metre; state its unit: --mesh-unit mm makes it "
-                  "{:.3g} mm, --mesh-unit m if a metre is right",
-                  name, size_m, size_m));
+  const std::string size =
+      size_m < kSmallest_m ? fmt::format("{:.3g} mm", 1e3 * size_m) : fmt::format("{:.3g} m", size_m);
+  throw UnlikelyMetres(name + ": the mesh is " + size + " large if its unit is a metre; state its unit", size_m);
 }
 
 }  // namespace asperity

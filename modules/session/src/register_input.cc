@@ -117,7 +117,7 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
   }
   if (out.mesh().triangles.empty()) throw Error(printable(mesh, 200) + ": holds no faces");
   if (const double size_m = size_of_mesh_m(out.mesh(), out.unit_m()); !(size_m <= kAbsurd_m)) {
-    throw Error(fmt::format("{}: the mesh is {:.3g} m large; is --mesh-unit right?", printable(mesh, 200), size_m));
+    throw Error(fmt::format("{}: the mesh is {:.3g} m large; is its unit right?", printable(mesh, 200), size_m));
   }
   for (std::size_t i = 0; i < scans.size(); ++i) {
     Scan& scan = out.scans.emplace_back(read_scan(scans[i], observer));
@@ -135,8 +135,7 @@ ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>
   ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh(), input.unit_m()), guess, config, observer);
   result.problems.insert(result.problems.begin(), input.mesh().problems.begin(), input.mesh().problems.end());
   if (const double size_m = size_of_mesh_m(input.mesh(), input.unit_m()); size_m > kLarge_m) {
-    result.problems.push_back(
-        {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
+    result.problems.push_back({"large_mesh", fmt::format("the mesh is {:.0f} m large; is its unit right?", size_m), 1});
   }
   return result;
 }

@@ -92,7 +92,7 @@ void ArealTraits::make_tables(const ArealTexture& t, ServoTables& tables) { tabl
 
 void ArealTraits::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {
   const auto samples = input.read_areal_samples(input.files);
-  ArealFit fit = fit_areal(samples, options.of<ArealTexture>().areal);
+  ArealFit fit = fit_areal(samples, options.of<ArealTexture>().areal, input.observer);
   out.report["samples"] = samples.size();
   out.report["rms_height_m"] = fit.rms_height_m;
   out.report["rms_error_m"] = fit.rms_error_m;

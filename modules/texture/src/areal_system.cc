@@ -128,7 +128,7 @@ void ArealSystem::apply(const std::vector<double>& c, std::vector<double>& out) 
       });
 }
 
-double ArealSystem::solve(std::vector<double>& c, int iterations, double tolerance) const {
+double ArealSystem::solve(std::vector<double>& c, int iterations, double tolerance, const Observer& observer) const {
   const std::size_t count = c.size();
   std::vector<double> residual(count), direction(count), image(count), preconditioned(count);
   apply(c, image);
@@ -146,6 +146,7 @@ double ArealSystem::solve(std::vector<double>& c, int iterations, double toleran
   double product = dot(residual, preconditioned);
   double relative = std::sqrt(dot(residual, residual)) / scale;
   for (int step = 0; step < iterations && relative > tolerance; ++step) {
+    observer.update("texture", static_cast<double>(step) / iterations);
     apply(direction, image);
     const double along = dot(direction, image);
     if (!(along > 0.0)) break;

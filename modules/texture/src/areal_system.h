@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/fit_areal.h"
 #include "asperity/texture/spline_grid.h"
 
@@ -20,7 +21,7 @@ class ArealSystem {
   ArealSystem(const SplineGrid& grid, std::span<const ArealSample> samples, double mean_m, double smoothness);
 
   // Conjugate gradients with a diagonal preconditioner from `c`; returns the relative residual reached.
-  double solve(std::vector<double>& c, int iterations, double tolerance) const;
+  double solve(std::vector<double>& c, int iterations, double tolerance, const Observer& observer) const;
 
   // 1 where samples within one grid cell and a half weigh upon the coefficient.
   std::vector<std::uint8_t> supported() const;

@@ -43,11 +43,14 @@ SeriesContactForce AutoregressiveTraits::contact_force(const AutoregressiveTextu
 }
 
 void AutoregressiveTraits::stroke(const AutoregressiveTexture& t, const StrokeConfig& c,
-                                  std::vector<double>& acceleration_mps2) {
+                                  std::vector<double>& acceleration_mps2, const Observer& observer) {
   const auto converted = convert_rate(t, {.rate_Hz = c.rate_Hz});
   SeriesState state = start_series(static_cast<std::uint64_t>(c.seed));
-  for (double& a : acceleration_mps2)
+  RowWatch watch(observer);
+  for (double& a : acceleration_mps2) {
+    watch.next();
     a = next_acceleration_mps2(converted, state, c.speed_mps, c.force_N, 1.0 / c.rate_Hz);
+  }
 }
 
 void AutoregressiveTraits::prepare(AutoregressiveTexture& t, double rate_Hz) {

@@ -52,10 +52,15 @@ void RingingTraits::start_contact(const DecayingSinusoids& t, SeriesState& state
   start_tap(t, state, contact.approach_mps, contact.load_N);
 }
 
-void RingingTraits::stroke(const DecayingSinusoids& t, const StrokeConfig& c, std::vector<double>& acceleration_mps2) {
+void RingingTraits::stroke(const DecayingSinusoids& t, const StrokeConfig& c, std::vector<double>& acceleration_mps2,
+                           const Observer& observer) {
   SeriesState state = start_series(static_cast<std::uint64_t>(c.seed));
   if (!(t.pitch_m > 0.0)) start_tap(t, state, c.speed_mps, c.force_N);
-  for (double& a : acceleration_mps2) a = next_acceleration_mps2(t, state, c.speed_mps, c.force_N, 1.0 / c.rate_Hz);
+  RowWatch watch(observer);
+  for (double& a : acceleration_mps2) {
+    watch.next();
+    a = next_acceleration_mps2(t, state, c.speed_mps, c.force_N, 1.0 / c.rate_Hz);
+  }
 }
 
 void RingingTraits::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {

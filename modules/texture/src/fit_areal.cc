@@ -134,7 +134,7 @@ SplineGrid empty_grid(const Extent& e, const FitArealConfig& config, double spac
 
 }  // namespace
 
-ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config) {
+ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config, const Observer& observer) {
   if (!(config.spacing_mm >= 0.0) || !std::isfinite(config.spacing_mm))
     throw Error("texture: the spacing " + number_text(config.spacing_mm) + " mm is negative");
   ArealFit fit;
@@ -156,7 +156,8 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
     if (!grid.coefficient_m.empty()) resample_grid(grid, finer);
     grid = std::move(finer);
     const ArealSystem system(grid, present, mean_m, config.smoothness);
-    fit.relative_residual = system.solve(grid.coefficient_m, config.iterations, level == 0 ? kSolveTolerance : 1e-4);
+    fit.relative_residual =
+        system.solve(grid.coefficient_m, config.iterations, level == 0 ? kSolveTolerance : 1e-4, observer);
     if (level == 0) fit.texture.supported = system.supported();
   }
   for (double& c : grid.coefficient_m) c += mean_m;

@@ -57,7 +57,8 @@ Window choose_window(const BridgedProfile& profile, double spacing_m, const FitF
   return longest;
 }
 
-Fourier1d transform_heights(const std::vector<double>& z, std::size_t coefficients, double length_mm) {
+Fourier1d transform_heights(const std::vector<double>& z, std::size_t coefficients, double length_mm,
+                            const Observer& observer) {
   const std::size_t count = z.size();
   std::vector<double> cosine(count), sine(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -69,6 +70,7 @@ Fourier1d transform_heights(const std::vector<double>& z, std::size_t coefficien
   const double scale = 2.0 / static_cast<double>(count);
   for (const double v : z) texture.mean_m += v / static_cast<double>(count);
   for (std::size_t j = 1; j <= coefficients; ++j) {
+    observer.update("texture", static_cast<double>(j) / static_cast<double>(2 * coefficients));
     double real = 0.0;
     double minus_imaginary = 0.0;
     std::size_t phase = 0;
@@ -86,7 +88,8 @@ Fourier1d transform_heights(const std::vector<double>& z, std::size_t coefficien
 
 }  // namespace
 
-FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
+FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config,
+                         const Observer& observer) {
   check_heights(height_m, spacing_m, config);
   FourierFit fit;
   const BridgedProfile profile = bridge_short_gaps(height_m, samples_of(config.max_gap_mm, spacing_m));
@@ -96,7 +99,7 @@ FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, con
   double length_mm = static_cast<double>(window.count) * spacing_m * 1e3;
   if (std::abs(length_mm - config.length_mm) < 1e-9 * config.length_mm) length_mm = config.length_mm;
   const std::size_t coefficients = std::min(static_cast<std::size_t>(config.coefficients), (window.count - 1) / 2);
-  fit.texture = transform_heights(periodic_m, coefficients, length_mm);
+  fit.texture = transform_heights(periodic_m, coefficients, length_mm, observer);
   fit.first_sample = window.first;
   fit.samples = window.count;
   fit.bridged = profile.bridged_before[window.first + window.count] - profile.bridged_before[window.first];
@@ -107,7 +110,10 @@ FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, con
     mean_m += profile.height_m[window.first + i] / static_cast<double>(window.count);
   double square = 0.0;
   double error = 0.0;
+  constexpr std::size_t kBlock = 64;  // a height costs as many products as there are coefficients
   for (std::size_t i = 0; i < window.count; ++i) {
+    if (i % kBlock == 0)
+      observer.update("texture", 0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(window.count));
     const double z = profile.height_m[window.first + i];
     const double x_m = length_mm * 1e-3 * static_cast<double>(i) / static_cast<double>(window.count);
     const double difference = evaluate_height(fit.texture, x_m).height_m - z;

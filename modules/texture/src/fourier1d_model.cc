@@ -80,7 +80,8 @@ Fourier1d fit_series(const TextureFitInput& input, const std::vector<std::string
     out.add_problems(path.problems);
     series = std::move(path.fit.texture);
   } else {
-    FourierFit window = fit_fourier1d(profile.height_m, profile.spacing_m, options.of<Fourier1d>().fourier1d);
+    FourierFit window =
+        fit_fourier1d(profile.height_m, profile.spacing_m, options.of<Fourier1d>().fourier1d, input.observer);
     out.report["first_sample"] = window.first_sample;
     out.report["samples"] = window.samples;
     out.report["bridged"] = window.bridged;

@@ -106,7 +106,7 @@ void MapTraits::fit(const TextureFitInput& input, const TextureFitOptions& optio
   } else {
     TextureModelTraits<Fourier2d>::fit(input, options, out);
   }
-  HeightMapFit fit = make_height_map(out.texture.model, options.of<HeightMap>().heightmap);
+  HeightMapFit fit = make_height_map(out.texture.model, options.of<HeightMap>().heightmap, input.observer);
   out.report["map_rms_m"] = fit.rms_height_m;
   out.report["map_rms_error_m"] = fit.rms_error_m;
   out.report["quantisation_m"] = fit.quantisation_m;

@@ -61,13 +61,16 @@ SeriesContactForce StochasticTraits::contact_force(const StochasticTexture& t, S
   return {normal_N, tangential_N, std::max(height_m, 0.0), depth_m};
 }
 
-void StochasticTraits::stroke(const StochasticTexture& t, const StrokeConfig& c,
-                              std::vector<double>& acceleration_mps2) {
+void StochasticTraits::stroke(const StochasticTexture& t, const StrokeConfig& c, std::vector<double>& acceleration_mps2,
+                              const Observer& observer) {
   StochasticTexture plain = t;
   plain.offset_sigmas = 0.0;
   SeriesState state = start_series(static_cast<std::uint64_t>(c.seed));
-  for (double& a : acceleration_mps2)
+  RowWatch watch(observer);
+  for (double& a : acceleration_mps2) {
+    watch.next();
     a = t.stiffness_N_per_m / t.mass_kg * next_height_m(plain, state, c.speed_mps, c.force_N, 1.0 / c.rate_Hz);
+  }
 }
 
 void StochasticTraits::prepare(StochasticTexture& t, double) {

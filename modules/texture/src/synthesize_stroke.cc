@@ -32,13 +32,16 @@ std::size_t samples_of(const StrokeConfig& c) {
   return static_cast<std::size_t>(count);
 }
 
-void stroke_heights(const TextureModel& model, const StrokeConfig& c, std::vector<double>& x) {
+void stroke_heights(const TextureModel& model, const StrokeConfig& c, std::vector<double>& x,
+                    const Observer& observer) {
+  RowWatch watch(observer);
   const double step_m = c.speed_mps / c.rate_Hz;
   const auto slope = [&](double samples) {
     return evaluate_height(model, c.start_m + samples * step_m, c.y_m).slope_x;
   };
   double last = slope(-0.5);
   for (std::size_t i = 0; i < x.size(); ++i) {
+    watch.next();
     const double next = slope(static_cast<double>(i) + 0.5);
     x[i] = c.speed_mps * c.rate_Hz * (next - last);
     last = next;
@@ -47,14 +50,14 @@ void stroke_heights(const TextureModel& model, const StrokeConfig& c, std::vecto
 
 }  // namespace
 
-std::vector<double> synthesize_stroke(const Texture& texture, const StrokeConfig& config) {
+std::vector<double> synthesize_stroke(const Texture& texture, const StrokeConfig& config, const Observer& observer) {
   std::vector<double> x(samples_of(config));
   std::visit(
       [&]<class Model>(const Model& model) {
         if constexpr (SeriesModel<Model>)
-          TextureModelTraits<Model>::stroke(model, config, x);
+          TextureModelTraits<Model>::stroke(model, config, x, observer);
         else
-          stroke_heights(texture.model, config, x);
+          stroke_heights(texture.model, config, x, observer);
       },
       texture.model);
   return x;

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/base/error.h"
+
 namespace asperity {
 
 // Each stage has one config struct with a default for each field and one `visit` that lists them:
@@ -134,7 +136,18 @@ bool is_same_config(Config a, Config b) {
                     [](const ConfigField& x, const ConfigField& y) { return x.get() == y.get(); });
 }
 
-// The field at `path`, or that was there formerly; throws Error for an unknown path, naming the nearest known one.
+// There is no setting of that name. The message has the name that was probably meant, if there is one.
+class UnknownSetting : public Error {
+ public:
+  UnknownSetting(const std::string& text, bool suggests) : Error(text), suggests_(suggests) {}
+  bool suggests() const { return suggests_; }  // false: the caller says where all names are listed
+
+ private:
+  bool suggests_;
+};
+
+// The field at `path`, or that was there formerly; throws UnknownSetting for another path, naming the nearest known
+// one: by its letters, or one that is the same but for the groups before the dots.
 const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path);
 
 // Sets the field at `path` from the text of `--set`.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string_view>
 
@@ -19,6 +20,21 @@ struct Observer {
   }
   // For a part of a stage: asks the same, reports nothing.
   Observer without_progress() const { return {{}, cancelled}; }
+};
+
+// For a loop over many rows: asks once in 4096 of them whether to stop.
+class RowWatch {
+ public:
+  explicit RowWatch(const Observer& observer = {}) : cancelled_(observer.cancelled) {}
+
+  // Throws Cancelled.
+  void next() {
+    if ((++rows_ & 4095U) == 0 && cancelled_ && cancelled_()) throw Cancelled();
+  }
+
+ private:
+  std::function<bool()> cancelled_;
+  std::size_t rows_ = 0;
 };
 
 }  // namespace asperity

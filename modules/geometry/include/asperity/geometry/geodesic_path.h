@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_path.h"
 #include "asperity/geometry/mesh_point.h"
@@ -25,12 +26,12 @@ struct GeodesicPath {
 // locally shortest paths (round a hole, over a ridge) it is the one whose first path is shortest.
 // Triangles are neighbours over their edges, also where more than two meet; there the path keeps the side
 // it was first led to. Throws Error for a point that is not on the mesh, and if no chain of neighbours
-// connects the points.
+// connects the points; Cancelled between two detours.
 GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from,
-                           const MeshPoint& to);
+                           const MeshPoint& to, const Observer& observer = {});
 
 // The shortest paths from each point to the next, joined. Throws Error also for fewer than two points.
-GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency,
-                           std::span<const MeshPoint> through);
+GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, std::span<const MeshPoint> through,
+                           const Observer& observer = {});
 
 }  // namespace asperity

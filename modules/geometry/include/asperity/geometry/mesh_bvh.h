@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/triangle_mesh.h"
 
 namespace asperity {
@@ -39,8 +40,8 @@ struct RayHit {
 class MeshBvh {
  public:
   // Keeps what it needs of `mesh`, about 70 bytes a triangle. Throws Error for a mesh without triangles, an index out
-  // of range or a vertex that is not finite.
-  explicit MeshBvh(const TriangleMesh& mesh);
+  // of range or a vertex that is not finite; Cancelled.
+  explicit MeshBvh(const TriangleMesh& mesh, const Observer& observer = {});
   ~MeshBvh();
   MeshBvh(MeshBvh&&) noexcept;
   MeshBvh& operator=(MeshBvh&&) noexcept;

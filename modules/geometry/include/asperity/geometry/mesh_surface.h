@@ -16,8 +16,8 @@ namespace asperity {
 // A mesh with all that is asked of it along a path: its neighbours, its normals and its closest points. Vertices
 // at the same position are one, so that a surface continues over seams.
 struct MeshSurface {
-  // Throws Error as MeshBvh does.
-  explicit MeshSurface(const TriangleMesh& triangles);
+  // Throws Error and Cancelled as MeshBvh does.
+  explicit MeshSurface(const TriangleMesh& triangles, const Observer& observer = {});
 
   TriangleMesh mesh;
   MeshAdjacency adjacency;

@@ -9,7 +9,7 @@
 namespace asperity {
 
 // Reads a mesh file by its extension: .obj (see read_obj), .ply, .stl, .off, .gltf, .glb, in any case of
-// letters. Throws Error for another extension and as those readers do; `observer` can stop those of glTF.
+// letters. Throws Error for another extension and as those readers do, and Cancelled.
 MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
@@ -24,10 +25,11 @@ namespace asperity {
 //
 // parse_obj leaves material libraries unread: `materials` holds the names only. `name` is what messages
 // call the text.
-MeshFile parse_obj(std::string_view text, const std::string& name, const MeshLimits& limits = {});
+MeshFile parse_obj(std::string_view text, const std::string& name, const MeshLimits& limits = {},
+                   const Observer& observer = {});
 
 // parse_obj of a file, and its material libraries from the same folder or below. One that is missing,
 // lies elsewhere or cannot be read is a problem.
-MeshFile read_obj(const std::filesystem::path& path, const MeshLimits& limits = {});
+MeshFile read_obj(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
@@ -18,8 +19,9 @@ namespace asperity {
 // Throws Error naming the file and line for a word that is not a finite number, an index out of range, a coordinate
 // beyond 1e12, fewer lines than stated or more after them, no faces, or more than `limits`. `name` is what messages
 // call the text.
-MeshFile parse_off(std::string_view text, const std::string& name, const MeshLimits& limits = {});
+MeshFile parse_off(std::string_view text, const std::string& name, const MeshLimits& limits = {},
+                   const Observer& observer = {});
 
-MeshFile read_off(const std::filesystem::path& path, const MeshLimits& limits = {});
+MeshFile read_off(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
@@ -19,8 +20,9 @@ namespace asperity {
 // Throws Error naming the file, and the line or the element and its place, for a header that is not a
 // PLY's, a cut file, numbers that are not finite, indices out of range, faces that stand before the
 // vertices, no vertices, or more than `limits`. `name` is what messages call the bytes.
-MeshFile parse_ply(std::string_view bytes, const std::string& name, const MeshLimits& limits = {});
+MeshFile parse_ply(std::string_view bytes, const std::string& name, const MeshLimits& limits = {},
+                   const Observer& observer = {});
 
-MeshFile read_ply(const std::filesystem::path& path, const MeshLimits& limits = {});
+MeshFile read_ply(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

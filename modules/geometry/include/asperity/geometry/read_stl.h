@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
@@ -19,8 +20,9 @@ namespace asperity {
 // Throws Error naming the file, and the line or triangle, for a cut file, numbers that are not finite,
 // statements that are not an STL's, no triangles, or more than `limits`. `name` is what messages call
 // the bytes.
-MeshFile parse_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits = {});
+MeshFile parse_stl(std::string_view bytes, const std::string& name, const MeshLimits& limits = {},
+                   const Observer& observer = {});
 
-MeshFile read_stl(const std::filesystem::path& path, const MeshLimits& limits = {});
+MeshFile read_stl(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

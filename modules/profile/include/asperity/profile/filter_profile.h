@@ -18,6 +18,7 @@ struct FilteredProfiles {
 // half of λc (R and W), and half of λf more (W), is left out at either end: what filters reach beyond the ends for.
 // W is empty where it would leave nothing. Throws Error as measure_roughness() does, and where nothing would be left of
 // R.
-FilteredProfiles filter_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config = {});
+FilteredProfiles filter_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config = {},
+                                const Observer& observer = {});
 
 }  // namespace asperity

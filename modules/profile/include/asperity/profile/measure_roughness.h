@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/profile/roughness.h"
 
 namespace asperity {
@@ -62,9 +63,10 @@ std::vector<double> roughness_profile_m(std::span<const double> height_m, double
 // the reading of ISO 4287:1997; docs/roughness.md says which follows which). nan heights are missing:
 // no profile element, peak or pit spans them, and a section that lacks more than `max_missing` of its
 // samples is left out of Rz. Throws Error for a spacing that is not positive, an infinite height, fewer
-// than two samples a section, or too many missing heights.
+// than two samples a section, or too many missing heights; Cancelled, where heights are filtered between two Fourier
+// transforms of the profile.
 RoughnessResult measure_roughness(std::span<const double> height_m, double spacing_m,
-                                  const RoughnessConfig& config = {});
+                                  const RoughnessConfig& config = {}, const Observer& observer = {});
 
 // Rcm(p): how far the level at which `percent` of the present samples are material lies above the
 // highest one (never positive). Levels are sample heights, not interpolated (ISO 21920-2, annex C).

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/haptic_triangle.h"
 #include "asperity/geometry/mesh_bvh.h"
 #include "asperity/geometry/pose.h"
@@ -14,6 +15,7 @@
 #include "asperity/render/render_material.h"
 #include "asperity/render/render_texture.h"
 #include "asperity/scene/scene.h"
+#include "asperity/texture/material_limits.h"
 
 namespace asperity {
 
@@ -30,10 +32,10 @@ struct RenderConfig {
   template <class V>
   void visit(V& v) {
     v.field("tip_radius_m", tip_radius_m, "radius of the tip, m; 0: a point", {0.0, 0.1});
-    v.field("stiffness_N_per_m", stiffness_N_per_m, "where the scene knows none, N/m", {1.0, 1e6});
-    v.field("friction", friction, "coefficient of sliding where the scene knows none", {0.0, 10.0});
+    v.field("stiffness_N_per_m", stiffness_N_per_m, "where the scene knows none, N/m", kStiffnessLimits_N_per_m);
+    v.field("friction", friction, "coefficient of sliding where the scene knows none", kFrictionLimits);
     v.field("static_friction_ratio", static_friction_ratio,
-            "coefficient of sticking over that of sliding where the scene knows none", {1.0, 10.0});
+            "coefficient of sticking over that of sliding where the scene knows none", kStaticFrictionRatioLimits);
     v.field("force_shading", force_shading, "forces along interpolated normals");
     v.field("border_fade_m", border_fade_m, "over which a texture fades at its border, m", {0.0, 1.0});
     v.group("texture", texture);
@@ -74,7 +76,7 @@ struct RenderModel {
   std::uint64_t material_id = 0;  // of the objects' materials: a hash of what is where
 };
 
-// Throws Error for a scene that cannot be rendered, naming object and place.
-RenderModel make_render_model(const Scene& scene, const RenderConfig& config);
+// Throws Error for a scene that cannot be rendered, naming object and place; Cancelled.
+RenderModel make_render_model(const Scene& scene, const RenderConfig& config, const Observer& observer = {});
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_path.h"
 #include "asperity/registration/haptic_coordinates.h"
 #include "asperity/scene/lay_texture.h"
@@ -42,8 +43,9 @@ VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Eigen::Vector
 // get the index of `texture`, which is added to the object's textures or replaces the one of that index; triangles
 // that had another texture are painted over, or it lies under that (lay_texture.h); all others stay. The texture's
 // order and origin are set here; of an origin that is given, the name and the settings are kept. The warp is that of
-// the texture on these triangles. Throws Error as virtual_path does, and for a negative index.
+// the texture on these triangles. Throws Error as virtual_path does, and for a negative index; Cancelled, with the
+// object as it was.
 PaintResult paint(SceneObject& object, std::span<const Eigen::Vector3d> picks_mesh_m, SceneTexture texture,
-                  const HapticCoordinatesConfig& config = {}, LayAt at = LayAt::kOver);
+                  const HapticCoordinatesConfig& config = {}, LayAt at = LayAt::kOver, const Observer& observer = {});
 
 }  // namespace asperity

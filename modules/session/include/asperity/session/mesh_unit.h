@@ -13,6 +13,17 @@ class WrongUnit : public Error {
   using Error::Error;
 };
 
+// Nobody stated the unit of a mesh's file, and metres make it something that no hand scans. The message ends before
+// how the unit is stated, which the caller knows.
+class UnlikelyMetres : public Error {
+ public:
+  UnlikelyMetres(const std::string& text, double size_m) : Error(text), size_m_(size_m) {}
+  double size_m() const { return size_m_; }  // of the mesh, if its unit is a metre
+
+ private:
+  double size_m_;
+};
+
 // Gives the first mesh of what was read from `file` a unit of `unit_m`. Throws WrongUnit for a scene.json that has
 // another one.
 void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_m);
@@ -20,8 +31,8 @@ void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_
 // The length of the diagonal of the box around a mesh, m.
 double size_of_mesh_m(const MeshFile& mesh, double unit_m);
 
-// Throws Error, which says what to state, where nobody stated the unit of a mesh's file and metres make it something
-// that no hand scans: larger than 5 m, or smaller than 1 mm. A scene.json and glTF state their unit themselves.
+// Throws UnlikelyMetres for a file that does not state its unit (scene.json and glTF do) and would be larger than 5 m
+// or smaller than 1 mm in metres.
 void refuse_unlikely_metres(const MeshFile& mesh, const std::filesystem::path& file);
 
 }  // namespace asperity

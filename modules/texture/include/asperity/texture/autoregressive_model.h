@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/autoregressive.h"
 #include "asperity/texture/fit_autoregressive.h"
 #include "asperity/texture/import_penn.h"
@@ -21,8 +22,8 @@ struct TextureModelTraits<AutoregressiveTexture> {
   static constexpr std::string_view kForceName = "autoregressive";
   static SeriesContactForce contact_force(const AutoregressiveTexture& t, SeriesState& state,
                                           const SeriesContact& contact) noexcept;
-  static void stroke(const AutoregressiveTexture& t, const StrokeConfig& config,
-                     std::vector<double>& acceleration_mps2);
+  static void stroke(const AutoregressiveTexture& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2,
+                     const Observer& observer);
   static void prepare(AutoregressiveTexture& t, double rate_Hz);
 
   struct FitOptions {

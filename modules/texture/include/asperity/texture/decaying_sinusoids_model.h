@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/decaying_sinusoids.h"
 #include "asperity/texture/fit_decaying_sinusoids.h"
 #include "asperity/texture/texture_model_traits.h"
@@ -21,7 +22,8 @@ struct TextureModelTraits<DecayingSinusoids> {
   static SeriesContactForce contact_force(const DecayingSinusoids& t, SeriesState& state,
                                           const SeriesContact& contact) noexcept;
   static void start_contact(const DecayingSinusoids& t, SeriesState& state, const SeriesContact& contact) noexcept;
-  static void stroke(const DecayingSinusoids& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2);
+  static void stroke(const DecayingSinusoids& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2,
+                     const Observer& observer);
 
   struct FitOptions {
     FitDecayingSinusoidsConfig decaying_sinusoids;

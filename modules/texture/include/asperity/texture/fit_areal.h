@@ -4,6 +4,7 @@
 #include <span>
 
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/texture/areal_texture.h"
 
 namespace asperity {
@@ -56,7 +57,8 @@ struct ArealFit {
 // factor of 3 at most); for other samples √(area / samples), at most 0.1 mm; coarser, with the Problem
 // "coarser_than_data", where that would be more than 1,048,576 points or 2048 a side. Throws Error for fewer than 16
 // samples, positions that are not finite or on one line, an infinite height, or a grid of more than 4096 points a side
-// or 4,194,304 in all.
-ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config = {});
+// or 4,194,304 in all; Cancelled.
+ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config = {},
+                   const Observer& observer = {});
 
 }  // namespace asperity

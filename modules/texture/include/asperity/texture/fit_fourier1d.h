@@ -4,6 +4,7 @@
 #include <span>
 
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/texture/fourier1d.h"
 
 namespace asperity {
@@ -44,6 +45,7 @@ struct FourierFit {
 // stretch is L long, the longest is taken whole, with N < M/2 and a Problem.
 // Throws Error for an infinite height, a spacing that is not positive, M ≤ 2N at length L, or a profile
 // without a gap-free stretch of `shortest_mm`.
-FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config = {});
+FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config = {},
+                         const Observer& observer = {});
 
 }  // namespace asperity

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/fit_stochastic.h"
 #include "asperity/texture/stochastic.h"
 #include "asperity/texture/texture_model_traits.h"
@@ -22,7 +23,8 @@ struct TextureModelTraits<StochasticTexture> {
   static constexpr std::string_view kForceName = "stochastic";
   static SeriesContactForce contact_force(const StochasticTexture& t, SeriesState& state,
                                           const SeriesContact& contact) noexcept;
-  static void stroke(const StochasticTexture& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2);
+  static void stroke(const StochasticTexture& t, const StrokeConfig& config, std::vector<double>& acceleration_mps2,
+                     const Observer& observer);
   static void prepare(StochasticTexture& t, double rate_Hz);
   static SeriesHeights heights(const StochasticTexture& t);
   // σ and the correlation length of the heights along x, several lines of them (thesis §6.5: "variance equal to the

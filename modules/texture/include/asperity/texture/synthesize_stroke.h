@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
@@ -33,7 +34,8 @@ struct StrokeConfig {
 // that what is finer than a sample is averaged rather than folded). Autoregressive textures and decaying sinusoids:
 // theirs; the former converted to rate_Hz (convert_rate); a decaying sinusoid without a pitch is one tap at the start.
 // Stochastic textures: their force, the offset taken off, over their mass. Same texture and config, same samples.
-// Throws Error for a config out of range or more than 2^28 samples.
-std::vector<double> synthesize_stroke(const Texture& texture, const StrokeConfig& config = {});
+// Throws Error for a config out of range or more than 2^28 samples; Cancelled.
+std::vector<double> synthesize_stroke(const Texture& texture, const StrokeConfig& config = {},
+                                      const Observer& observer = {});
 
 }  // namespace asperity

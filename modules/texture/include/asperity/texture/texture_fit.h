@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/json/json.h"
 #include "asperity/texture/texture.h"
 
@@ -31,6 +32,7 @@ struct SeriesTable {
 // the file.
 struct TextureFitInput {
   std::vector<std::string> files;
+  Observer observer{};      // may cancel the fits of series and areal maps
   bool whole_path = false;  // one series over the whole path instead of its best window
   std::function<HeightLine(const std::vector<std::string>& files)> read_heights;
   std::function<std::vector<ArealSample>(const std::vector<std::string>& files)> read_areal_samples;

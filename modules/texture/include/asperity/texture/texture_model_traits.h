@@ -56,7 +56,7 @@ class TextureHash;
 //   a series, a force in time
 //     kForceName                             of its force model on the command line
 //     contact_force(model, state, contact) noexcept        one servo step; realtime-safe
-//     stroke(model, config, acceleration_mps2)             see synthesize_stroke()
+//     stroke(model, config, acceleration_mps2, observer)   see synthesize_stroke()
 //     [prepare(model, rate_Hz)]              for a servo of this rate
 //     [start_contact(model, state, contact) noexcept]      on the first step of a contact, instead of contact_force
 //     [heights(model)]                       see SeriesHeights; none by default
