@@ -141,6 +141,16 @@ TEST_F(FeelCommands, AStrokeGoesBetweenGivenPoints) {
   EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 16e-3, 0.3e-3);
 }
 
+// As `paint` and `register` do: a plate of 60 m is one whose unit nobody stated.
+TEST_F(FeelCommands, AnUnlikelyUnitIsAskedFor) {
+  write_text(path("plate60.obj"), "v 0 0 0\nv 60 0 0\nv 60 20 0\nv 0 20 0\nf 1 2 3\nf 1 3 4\n");
+  const Outcome outcome = feel(path("plate60.obj"), {"--duration", "0.01s"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("plate60.obj: the mesh is 63.2 m large if its unit is a metre; state its unit: "
+                                     "--mesh-unit mm makes it 63.2 mm"));
+  EXPECT_EQ(feel(path("plate60.obj"), {"--mesh-unit", "mm", "--duration", "0.01s"}).code, 0);
+}
+
 TEST_F(FeelCommands, TheHandStaysOnTheFaceOfAShortObject) {
   write_text(
       path("box.obj"),

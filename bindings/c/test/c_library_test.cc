@@ -291,6 +291,11 @@ TEST_F(CLibrary, WrongArgumentsAreNamedAndChangeNothing) {
   EXPECT_EQ(asperity_scene_set_pose(scene_, 0, vertices_m_.data(), none.data()), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(asperity_settings_set(settings_, "fiction", "0.3"), ASPERITY_BAD_ARGUMENT);
   EXPECT_NE(std::string(asperity_last_error()).find("friction"), std::string::npos) << asperity_last_error();
+  EXPECT_EQ(asperity_settings_set(settings_, "render.friction", "0.3"), ASPERITY_BAD_ARGUMENT);
+  EXPECT_NE(std::string(asperity_last_error()).find("'friction'"), std::string::npos) << asperity_last_error();
+  EXPECT_EQ(asperity_settings_set(settings_, "wurst", "0.3"), ASPERITY_BAD_ARGUMENT);
+  EXPECT_NE(std::string(asperity_last_error()).find("asperity_settings_name()"), std::string::npos);
+  EXPECT_EQ(std::string(asperity_last_error()).find("--"), std::string::npos) << asperity_last_error();
   EXPECT_EQ(asperity_settings_set(settings_, "friction", "-1"), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(asperity_settings_set(nullptr, "friction", "1"), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(asperity_feel_create(nullptr, nullptr, nullptr), ASPERITY_BAD_ARGUMENT);

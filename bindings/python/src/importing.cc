@@ -13,30 +13,19 @@ namespace asperity::python {
 
 namespace {
 
-// The settings of `asperity import`, by the groups that it has them in.
-struct ImportSettings {
-  ImportConfig import;
-  MappingConfig mapping;
-
-  template <class V>
-  void visit(V& v) {
-    v.group("import", import);
-    v.group("mapping", mapping);
-  }
-};
-
 Recording import_recording(const std::filesystem::path& pose, const std::filesystem::path& imu,
                            const std::filesystem::path& gyro, const std::filesystem::path& force,
                            const std::filesystem::path& object_pose, const py::dict& settings, bool unchecked) {
   ImportSettings config;
   set_all(config, settings);
-  return interruptible([&](const Observer&) {
-    ImportTables tables = read_import_tables({pose, imu, gyro, force, object_pose}, config.mapping);
-    const ImportedMotion motion = read_imported_motion(tables, config.mapping);
+  return interruptible([&](const Observer& observer) {
+    ImportTables tables = read_import_tables({pose, imu, gyro, force, object_pose}, config.mapping, {}, observer);
+    const ImportedMotion motion = read_imported_motion(tables, config.mapping, observer);
     std::string doubts;
     for (const ImportDoubt& doubt : motion.checks.doubts)
       doubts += (doubts.empty() ? "" : "\n") + doubt_text(doubt, tables);
     if (!doubts.empty() && !unchecked) throw Error(doubts);
+    observer.update("import", 0.95);
     Recording out = make_imported_recording(motion, tables, config.mapping, config.import);
     for (const ImportDoubt& doubt : motion.checks.doubts) {
       out.problems.push_back({"implausible", doubt_text(doubt, tables), 1});
@@ -49,13 +38,14 @@ Recording import_recording(const std::filesystem::path& pose, const std::filesys
 }  // namespace
 
 void add_importing(py::module_& module) {
-  module.def("import_recording", &import_recording, py::arg("pose"), py::arg("imu") = "", py::arg("gyro") = "",
-             py::arg("force") = "", py::arg("object_pose") = "", py::arg("settings") = py::dict(),
-             py::arg("unchecked") = false,
-             "A recording from tables of other programs: poses, an inertial sensor, a force, the object's poses. One "
-             "file with all is `pose`. Columns and units are guessed from headers and values; settings state them, by "
-             "the names of `asperity import --set` (mapping.pose.columns, mapping.tip_m, import.tracker_sigma_m, …). "
-             "Raises Error where units or axes look implausible, unless unchecked: they are then in `problems`.");
+  module.def(
+      "import_recording", &import_recording, py::arg("pose"), py::arg("imu") = "", py::arg("gyro") = "",
+      py::arg("force") = "", py::arg("object_pose") = "", py::arg("settings") = py::dict(),
+      py::arg("unchecked") = false,
+      "A recording from tables of other programs: poses, an inertial sensor, a force, the object's poses. One "
+      "file with all is `pose`. Columns and units are guessed from headers and values; settings state them, those "
+      "of settings('import') (mapping.pose.columns, mapping.tip_m, import.tracker_sigma_m, …). "
+      "Raises Error where units or axes look implausible, unless unchecked: they are then in `problems`.");
 }
 
 }  // namespace asperity::python

@@ -18,6 +18,8 @@
 #include "asperity/session/merge_input.h"
 #include "interruptible.h"
 #include "parts.h"
+#include "shared_texture.h"
+#include "unmade.h"
 #include "verdicts.h"
 
 namespace asperity::python {
@@ -110,7 +112,8 @@ void add_processing(py::module_& module) {
                              "(n,) contact force along the normal, N")
       .def_property_readonly("speed_mps", viewed([](const R& r) -> auto& { return r.profile.speed_mps; }),
                              "(n,) speed along the base path, m/s")
-      .def_property_readonly("spacing_m", [](const Result& of) { return of.result.profile.spacing_m; })
+      .def_property_readonly(
+          "spacing_m", [](const Result& of) { return of.result.profile.spacing_m; }, "Distance of s_m's points, m.")
       .def_property_readonly("spectrum_cycles_per_mm",
                              viewed([](const R& r) -> auto& { return r.spectrum.frequency_cycles_per_mm; }),
                              "(k,) wave numbers of the texture's power spectrum, cycles/mm")
@@ -135,8 +138,11 @@ void add_processing(py::module_& module) {
                              "(m, 4) the marker's orientation, quaternions x y z w")
       .def_property_readonly(
           "texture",
-          [](const Result& of) -> py::object { return of.result.texture ? py::cast(*of.result.texture) : py::none(); },
-          "The Texture, or None where there is none.")
+          [](const std::shared_ptr<Result>& of) -> std::optional<SharedTexture> {
+            if (!of->result.texture) return std::nullopt;
+            return SharedTexture(std::shared_ptr<const Texture>(of, &*of->result.texture), "result");
+          },
+          "The Texture, or None where there is none. It cannot be changed; its copy() can.")
       .def_property_readonly(
           "summary",
           [](const Result& of) {
@@ -149,14 +155,19 @@ void add_processing(py::module_& module) {
       .def(
           "write", &write, py::arg("folder"),
           "Write trajectory.csv, profile.csv, spectrum.csv, texture.json and result.json into a folder; one that holds "
-          "anything but a result is not replaced.");
+          "anything but a result is not replaced.")
+      .def("__repr__", [](const Result& of) {
+        return "<asperity.Result '" + of.name + "': " + std::to_string(of.result.profile.s_m.size()) + " heights, " +
+               (of.result.trustworthy ? "valid" : "invalid") + ">";
+      });
+  refuse_unmade<Result>();
   module.def("merge", &merge, py::arg("strokes"), py::arg("settings") = py::dict(),
              "One profile of two or more strokes over one line, aligned and averaged by their noise: folders of "
-             "recordings, or of results that were made with profile.remove_noise off. settings: those of `asperity "
-             "merge --set`. `summary` is that of the merge; there is no motion.");
+             "recordings, or of results that were made with profile.remove_noise off. settings: those of "
+             "settings('merge'). `summary` is that of the merge; there is no motion.");
   module.def("process", &process, py::arg("recording").none(false), py::arg("name") = "recording",
              py::arg("settings") = py::dict(),
-             "From a recording to profile, roughness and texture. settings: those of `asperity process --set`.");
+             "From a recording to profile, roughness and texture. settings: those of settings('process').");
 }
 
 }  // namespace asperity::python

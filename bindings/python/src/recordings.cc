@@ -8,40 +8,41 @@
 #include "arrays.h"
 #include "asperity/base/config.h"
 #include "asperity/base/output.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/recording/validate_recording.h"
 #include "asperity/recording/write_recording.h"
-#include "asperity/simulation/simulate_recording.h"
-#include "asperity/simulation/simulation_config.h"
 #include "interruptible.h"
 #include "parts.h"
+#include "unmade.h"
 
 namespace asperity::python {
 
 namespace {
 
-Recording simulate(const std::string& surface, const std::string& probe, std::optional<double> speed_mps,
-                   std::int64_t seed, const py::dict& settings) {
-  SimulationConfig config = make_simulation_config(surface, probe);
-  py::dict named;
-  if (speed_mps) named["hand.speed_mps"] = *speed_mps;
-  named["seed"] = seed;
-  set_all(config, named);
+py::object inspect(const Recording& recording, const py::dict& settings) {
+  InspectConfig config;
   set_all(config, settings);
-  return interruptible([&](const Observer& observer) { return simulate_recording(config, observer); });
+  const std::string json = interruptible(
+      [&](const Observer&) { return inspection_json(inspect_recording(recording, config)).dump_repaired(); });
+  return py::module_::import("json").attr("loads")(json);
 }
 
 void write(const Recording& recording, const std::filesystem::path& folder) {
-  const py::gil_scoped_release unlocked;
-  OutputFolder out(folder, is_replaceable_recording);
-  write_recording(out.path(), recording);
-  out.commit();
+  interruptible([&](const Observer&) {
+    OutputFolder out(folder, is_replaceable_recording);
+    write_recording(out.path(), recording);
+    out.commit();
+  });
 }
 
 }  // namespace
 
 void add_recordings(py::module_& module) {
   py::class_<Truth>(module, "Truth", "What a simulation knows, at the time of each sample that the probe took.")
-      .def_property_readonly("t_ns", [](py::object self) { return view(self.cast<const Truth&>().t_ns, self); })
+      .def_property_readonly(
+          "t_ns", [](py::object self) { return view(self.cast<const Truth&>().t_ns, self); },
+          "(n,) int64, true times of the samples, ns")
       .def_property_readonly(
           "s_m", [](py::object self) { return view(self.cast<const Truth&>().s_m, self); },
           "(n,) arc length along the base surface, m")
@@ -53,12 +54,17 @@ void add_recordings(py::module_& module) {
           "(n, 3) the tip in the world frame, m")
       .def_property_readonly(
           "force_N", [](py::object self) { return view(self.cast<const Truth&>().force_N, self); },
-          "(n,) contact force, N");
+          "(n,) contact force, N")
+      .def("__repr__",
+           [](const Truth& truth) { return "<asperity.Truth: " + std::to_string(truth.t_ns.size()) + " samples>"; });
+  refuse_unmade<Truth>();
 
   py::class_<Recording, std::shared_ptr<Recording>>(
       module, "Recording", "A probe's and a tracker's streams with their calibration, as recorded.")
-      .def_property_readonly("object", [](const Recording& r) { return r.info.object; })
-      .def_property_readonly("probe_model", [](const Recording& r) { return r.info.probe_model; })
+      .def_property_readonly(
+          "object", [](const Recording& r) { return r.info.object; }, "What was scanned, as stated.")
+      .def_property_readonly(
+          "probe_model", [](const Recording& r) { return r.info.probe_model; }, "The probe's model, as stated.")
       .def_property_readonly(
           "problems",
           [](const Recording& r) {
@@ -112,11 +118,20 @@ void add_recordings(py::module_& module) {
           "Truth of a simulated recording, else None.")
       .def("write", &write, py::arg("folder"),
            "Write it as a folder. A folder that holds anything but a simulated or imported recording is not replaced.")
-      .def("__len__", [](const Recording& r) { return r.probe.size(); })
+      .def("inspect", &inspect, py::arg("settings") = py::dict(),
+           "Rates, gaps, losses, saturation, static noise and faults (findings) as a dict, as `asperity inspect` "
+           "finds them. settings: those of settings('inspect').")
+      .def(
+          "validate", [](const Recording& r) { interruptible([&](const Observer&) { validate_recording(r); }); },
+          "Raises Error, naming stream and row, unless times rise, vectors have one length, and readings, poses and "
+          "calibration are finite.")
+      .def(
+          "__len__", [](const Recording& r) { return r.probe.size(); }, "The number of the probe's samples.")
       .def("__repr__", [](const Recording& r) {
         return "<asperity.Recording of '" + r.info.object + "': " + std::to_string(r.probe.size()) + " samples, " +
                std::to_string(r.tracker.size()) + " poses>";
       });
+  refuse_unmade<Recording>();
 
   module.def(
       "read_recording",
@@ -124,11 +139,6 @@ void add_recordings(py::module_& module) {
         return interruptible([&](const Observer& observer) { return read_recording(folder, {}, observer); });
       },
       py::arg("folder"), "Read a recording's folder. Raises Error naming file, line and value.");
-  module.def(
-      "simulate", &simulate, py::arg("surface") = "protoboard", py::arg("probe") = "open",
-      py::arg("speed_mps") = py::none(), py::arg("seed") = 1, py::arg("settings") = py::dict(),
-      "A recording of the virtual bench, with its truth. surface: a name of `asperity simulate --help` or a file "
-      "of heights; probe: 'open' or 'what'; settings: those of `--set`. The same seed gives the same recording.");
 }
 
 }  // namespace asperity::python

@@ -11,8 +11,11 @@
 #include "asperity/base/output.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/session/register_input.h"
+#include "inputs.h"
 #include "interruptible.h"
 #include "parts.h"
+#include "shared_scene.h"
+#include "unmade.h"
 #include "verdicts.h"
 
 namespace asperity::python {
@@ -30,9 +33,13 @@ struct Registration {
   }
 };
 
-// x, y, z (m), qw, qx, qy, qz.
-Pose pose_of(const std::vector<double>& seven) {
-  if (seven.size() != 7) throw py::value_error("guess: seven numbers are wanted, x, y, z, qw, qx, qy, qz");
+// x, y, z (m), qw, qx, qy, qz, or a matrix (4, 4).
+Pose pose_of(py::handle given) {
+  const py::array_t<double> numbers = doubles_of(given, "guess");
+  if (numbers.ndim() == 2) return pose_of_matrix(given, "guess");
+  if (numbers.ndim() != 1 || numbers.size() != 7)
+    throw py::value_error("guess: seven numbers are wanted, x, y, z, qw, qx, qy, qz, or a matrix (4, 4)");
+  const double* const seven = numbers.data();
   const Eigen::Quaterniond rotation(seven[3], seven[4], seven[5], seven[6]);
   const Eigen::Vector3d translation_m(seven[0], seven[1], seven[2]);
   if (!translation_m.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 1e-6))
@@ -42,14 +49,14 @@ Pose pose_of(const std::vector<double>& seven) {
 
 std::shared_ptr<Registration> register_recordings(const std::vector<std::filesystem::path>& scans,
                                                   const std::filesystem::path& mesh, std::optional<double> mesh_unit_m,
-                                                  const std::optional<std::vector<double>>& guess,
+                                                  const std::optional<py::object>& guess,
                                                   const std::vector<int>& placements, const py::dict& settings) {
   RegisterConfig config;
   set_all(config, settings);
   if (scans.empty()) throw py::value_error("scans: at least one is wanted");
   if (!placements.empty() && placements.size() != scans.size())
     throw py::value_error("placements: as many numbers as scans are wanted");
-  if (mesh_unit_m) within(*mesh_unit_m, 1e-6, 1e6, "mesh_unit_m");
+  if (mesh_unit_m) unit_of(*mesh_unit_m, "mesh_unit_m");
   const std::optional<Pose> first = guess ? std::optional(pose_of(*guess)) : std::nullopt;
   std::vector<std::string> names;
   for (const std::filesystem::path& scan : scans) names.push_back(scan.string());
@@ -62,12 +69,10 @@ std::shared_ptr<Registration> register_recordings(const std::vector<std::filesys
   });
 }
 
-// Row-major, (4, 4).
-py::array_t<double> matrix_of(const Pose& pose) {
-  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>::Identity();
-  m.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix();
-  m.topRightCorner<3, 1>() = pose.translation_m;
-  return py::array_t<double>({py::ssize_t{4}, py::ssize_t{4}}, m.data());
+std::vector<std::string> names_of(const Registration& of) {
+  std::vector<std::string> out;
+  for (const RegisteredScan& scan : of.result.scans) out.push_back(scan.name);
+  return out;
 }
 
 void write(const Registration& of, const std::filesystem::path& folder) {
@@ -77,9 +82,13 @@ void write(const Registration& of, const std::filesystem::path& folder) {
   out.commit();
 }
 
-Scene scene_of(const Registration& of) {
-  const py::gil_scoped_release unlocked;
-  return make_scene(of.result, of.input.mesh(), of.input.unit_m());
+SharedScene scene_of(const Registration& of) {
+  return interruptible([&](const Observer&) {
+    if (of.input.onto.folder.empty()) return SharedScene(make_scene(of.result, of.input.mesh(), of.input.unit_m()));
+    Scene scene = of.input.onto.scene;
+    add_scans(scene, of.result, place_scans(of.input.onto, names_of(of)), of.input.scans, of.input.onto.date);
+    return SharedScene(std::move(scene));
+  });
 }
 
 py::dict scan_arrays(const py::object& self, std::size_t index) {
@@ -108,14 +117,7 @@ void add_registering(py::module_& module) {
       .def_property_readonly(
           "verdicts", [](const Registration& of) { return verdicts_of(of.result.verdicts); },
           "The worst first: code, severity, message, remedy.")
-      .def_property_readonly(
-          "names",
-          [](const Registration& of) {
-            std::vector<std::string> out;
-            for (const RegisteredScan& scan : of.result.scans) out.push_back(scan.name);
-            return out;
-          },
-          "The scans' names.")
+      .def_property_readonly("names", &names_of, "The scans' names.")
       .def(
           "T_mesh_world",
           [](const Registration& of, std::size_t scan) {
@@ -137,26 +139,32 @@ void add_registering(py::module_& module) {
       .def_property_readonly(
           "summary",
           [](const Registration& of) {
-            std::vector<std::string> names;
-            for (const RegisteredScan& scan : of.result.scans) names.push_back(scan.name);
+            const std::vector<std::string> names = names_of(of);
             return py::module_::import("json").attr("loads")(
                 registration_json(of.result, place_scans(of.input.onto, names),
                                   std::vector<std::vector<std::string>>(names.size()), of.input.onto)
                     .dump_repaired());
           },
           "All of registration.json as a dict.")
-      .def("scene", &scene_of, "The mesh with the scans' textures, for a Renderer.")
+      .def("scene", &scene_of, "The mesh, or the scene that was given, with the scans' textures; for a Renderer.")
       .def("write", &write, py::arg("folder"),
            "Write registration.json, scene.json and the scans' results into a folder, as `asperity register` does; "
            "one that holds anything but a registration is not replaced.")
-      .def("__len__", [](const Registration& of) { return of.result.scans.size(); });
+      .def(
+          "__len__", [](const Registration& of) { return of.result.scans.size(); }, "The number of scans.")
+      .def("__repr__", [](const Registration& of) {
+        return "<asperity.Registration: " + "scans " + std::to_string(of.result.scans.size()) + ", " +
+               (of.result.trustworthy ? "valid" : "invalid") + ">";
+      });
+  refuse_unmade<Registration>();
   module.def("register_scans", &register_recordings, py::arg("scans"), py::arg("mesh"),
              py::arg("mesh_unit_m") = py::none(), py::arg("guess") = py::none(),
              py::arg("placements") = std::vector<int>(), py::arg("settings") = py::dict(),
-             "Align scans (folders of recordings, or CSV files of paths) with a mesh file and measure their textures "
-             "over it. guess: T_mesh_world as x, y, z (m), qw, qx, qy, qz; without it the whole mesh is searched. "
-             "placements: a number per scan, equal where the object was not moved in between. settings: those of "
-             "`asperity register --set`.");
+             "Align scans (folders of recordings, or CSV files of paths) with a mesh file, or with the mesh of a "
+             "scene.json, to which they are then added, and measure their textures over it. mesh_unit_m: as unit_m of "
+             "read_mesh. guess: T_mesh_world as x, y, z (m), qw, qx, qy, qz or as a matrix (4, 4), such as that of "
+             "align_points; without it the whole mesh is searched. placements: a number per scan, equal where the "
+             "object was not moved in between. settings: those of settings('register').");
 }
 
 }  // namespace asperity::python

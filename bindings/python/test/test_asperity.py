@@ -243,6 +243,7 @@ def test_ctrl_c_ends_a_long_simulation():
         (lambda: asperity.Scene(*plate()).paint(asperity.Texture, [[0, 0, 0]]), TypeError, "paint"),
         (lambda: asperity.Renderer(asperity.Scene(*plate()), settings={"friction": -1}), asperity.Error, "friction"),
         (lambda: asperity.Renderer(asperity.Scene(*plate())).step([0, 0]), ValueError, "position_m"),
+        (lambda: asperity.Renderer(asperity.Scene(*plate())).step([0, 0, 0], dt_s=-1.0), ValueError, "dt_s"),
         (lambda: asperity.Renderer(asperity.Scene(*plate())).steps([0, 0]), ValueError, "positions_m"),
         (lambda: asperity.read_scene("nothing.scene.json"), asperity.Error, "nothing.scene.json"),
     ],
@@ -252,16 +253,21 @@ def test_what_cannot_be_used_is_named(call, kind, text):
         call()
 
 
-@pytest.mark.parametrize("name, value", [("friction", -5.0), ("stiffness_N_per_m", -1e9), ("friction", float("nan"))])
-def test_a_material_that_cannot_be_is_refused(result, name, value):
-    texture = result.texture
-    setattr(texture, name, value)
+def test_the_texture_of_a_result_is_not_changed_by_accident(result):
+    for name, value in (("friction", 0.3), ("stiffness_N_per_m", 500.0), ("name", "other")):
+        with pytest.raises(AttributeError, match="copy"):
+            setattr(result.texture, name, value)
+    own = result.texture.copy()
+    own.friction = 0.3
+    assert own.friction == 0.3 and result.texture.friction != 0.3
     scene = asperity.Scene(*plate())
     with pytest.raises(ValueError, match="half_width_m"):
-        scene.paint(texture, [[0.005, 0.01, 0], [0.055, 0.01, 0]], half_width_m=-1.0)
-    scene.paint(texture, [[0.005, 0.01, 0], [0.055, 0.01, 0]])
-    with pytest.raises(asperity.Error, match=name.split("_")[0]):
-        asperity.Renderer(scene)
+        scene.paint(own, [[0.005, 0.01, 0], [0.055, 0.01, 0]], half_width_m=-1.0)
+    scene.paint(own, [[0.005, 0.01, 0], [0.055, 0.01, 0]])
+    own.friction = 0.7
+    assert scene.texture(1).friction == 0.3  # the scene's is that of the painting
+    with pytest.raises(AttributeError, match="scene"):
+        scene.texture(1).friction = 0.1
 
 
 def test_noise_is_not_trusted():

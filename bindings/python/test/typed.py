@@ -28,6 +28,9 @@ def touch(folder: Path, mesh: str) -> float:
     renderer = asperity.Renderer(registration.scene(), rate_Hz=2000.0, settings={"friction": 0.2})
     felt = renderer.steps(np.zeros((10, 3)) + pose[:3, 3])
     one: asperity.Touch = renderer.step([0.0, 0.0, 0.1])
+    renderer.update(settings={"friction": 0.3})
+    triangle: Optional[int] = one.triangle
+    print(triangle, one.vibration_N, renderer.rate_Hz)
     return float(felt["force_N"][-1, 2]) + float(one.force_N[2])
 
 
@@ -36,3 +39,22 @@ def gather(folders: list[Path]) -> asperity.Texture:
     imported = asperity.import_recording("poses.csv", "imu.csv", settings={"mapping.tip_m": [0, 0, -0.1]})
     print(len(imported), imported.problems)
     return merged.texture or asperity.fit_texture(merged.texture_m, merged.spacing_m)
+
+
+def build(file: Path) -> asperity.Scene:
+    mesh = asperity.read_mesh(file, unit_m=1e-3)
+    corners: npt.NDArray[np.uint32] = mesh.triangles
+    scene = asperity.Scene(mesh.vertices_m, corners)
+    texture = asperity.fit_texture(np.zeros(500), 25e-6, model="stochastic").copy()
+    texture.friction = 0.3
+    scene.paint(texture, mesh.vertices_m[:2])
+    scene.set_texture(1, asperity.make_texture(texture.content))
+    scene.set_pose(asperity.align_by_hand([0, 0, 0.1], [0, 90, 0]))
+    recording = asperity.simulate("sandpaper", mesh=mesh, through_m=mesh.vertices_m[:2], object_motion="held")
+    recording.validate()
+    findings: list[str] = recording.inspect()["findings"]
+    print(findings, asperity.settings("render")["friction"]["default"])
+    pose, rms_m = asperity.align_points(np.eye(3), np.eye(3))
+    asperity.register_scans([file], file, guess=pose)
+    print(rms_m + 1.0)
+    return scene

@@ -47,6 +47,25 @@ TEST(Config, SetsByPath) {
   EXPECT_EQ(config.inner.count, 7);
 }
 
+// The groups before a name differ between functions: render.NAME of a command is NAME of the renderer's own settings.
+TEST(Config, SuggestsTheSameNameInOtherGroups) {
+  Outer config;
+  const auto message = [](const std::vector<ConfigField>& fields, const char* path) -> std::string {
+    try {
+      set_field(fields, path, "1");
+    } catch (const UnknownSetting& error) {
+      EXPECT_EQ(error.suggests(), std::string(error.what()).find("did you mean") != std::string::npos) << path;
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(list_fields("", config), "long_group_name.inner.count"),
+            "unknown setting 'long_group_name.inner.count'; did you mean 'inner.count'?");
+  EXPECT_EQ(message(list_fields("long_group_name", config), "inner.count"),
+            "unknown setting 'inner.count'; did you mean 'long_group_name.inner.count'?");
+  EXPECT_EQ(message(list_fields("", config), "wurst"), "unknown setting 'wurst'");
+}
+
 // A settings file, a --set or a project of an older version.
 TEST(Config, ReadsFormerNamesAndWritesTheNewOne) {
   Outer config;

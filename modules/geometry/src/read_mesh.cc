@@ -17,6 +17,10 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits, 
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
+  if (std::filesystem::is_directory(path)) throw Error(path.string() + ": is a folder, not a mesh");
+  if (extension.empty())
+    throw Error(path.string() +
+                ": has no ending that states the kind of mesh; .obj, .ply, .stl, .off, .gltf and .glb can be read");
   if (extension == ".obj") return read_obj(path, limits, observer);
   if (extension == ".ply") return read_ply(path, limits, observer);
   if (extension == ".stl") return read_stl(path, limits, observer);

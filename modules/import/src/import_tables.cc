@@ -14,11 +14,13 @@ namespace asperity {
 namespace {
 
 ImportTable read_import_table(const std::filesystem::path& path, FileRole role, const MappingConfig& config,
-                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits) {
+                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits,
+                              const Observer& observer) {
+  observer.update("import", 0.0);
   std::string text = read_file(path, limits.csv_bytes);
   std::string section = mapping_of(config, role).section;
   if (section.empty()) section = preset_section(text, role);
-  return map_table(read_delimited(std::move(text), path.string(), section), role, config, elsewhere);
+  return map_table(read_delimited(std::move(text), path.string(), section, observer), role, config, elsewhere);
 }
 
 bool states_force(const MappingConfig& config) {
@@ -74,7 +76,8 @@ std::vector<const ImportTable*> ImportTables::all() const {
   return out;
 }
 
-ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits) {
+ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits,
+                                const Observer& observer) {
   const bool one_file = files.imu.empty() && files.gyro.empty() && files.force.empty() && files.object.empty();
   const std::filesystem::path& imu = files.imu.empty() ? files.pose : files.imu;
   // Each file has times of its own; rates are in the gyroscope's file if it has one.
@@ -82,16 +85,17 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   if (!one_file) times = sensor = {ColumnGroup::kTime};
   if (!files.gyro.empty()) sensor.push_back(ColumnGroup::kRate);
   ImportTables out;
-  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits);
-  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits);
-  if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits);
+  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits, observer);
+  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits, observer);
+  if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits, observer);
   if (!files.force.empty()) {
-    out.force = read_import_table(files.force, FileRole::kForce, config, times, limits);
+    out.force = read_import_table(files.force, FileRole::kForce, config, times, limits, observer);
   } else if (states_force(config) || one_file) {
-    out.force = read_import_table(imu, FileRole::kForce, config, times, limits);
+    out.force = read_import_table(imu, FileRole::kForce, config, times, limits, observer);
     if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
   }
-  if (!files.object.empty()) out.object = read_import_table(files.object, FileRole::kPose, config, times, limits);
+  if (!files.object.empty())
+    out.object = read_import_table(files.object, FileRole::kPose, config, times, limits, observer);
   require_stated_time(out, config);
   return out;
 }

@@ -50,13 +50,16 @@ SectionStart find_section(const DelimitedTable& table, std::string_view section)
 // Takes the rows in, one line after the other.
 class RowReader {
  public:
-  RowReader(DelimitedTable& table, std::size_t columns) : table_(table) { table_.columns.resize(columns); }
+  RowReader(DelimitedTable& table, std::size_t columns, const Observer& observer) : table_(table), watch_(observer) {
+    table_.columns.resize(columns);
+  }
 
   void read(std::size_t begin, std::size_t first_line) {
     const std::string_view text = table_.text;
     std::size_t at = begin;
     bool behind_blank = false;
     for (std::size_t line = first_line; at < text.size(); ++line) {
+      watch_.next();
       const std::size_t end = text.find('\n', at);
       if (end == std::string_view::npos) {
         note("truncated", line, "the last line has no end, as after a power cut; it was left out");
@@ -138,6 +141,7 @@ class RowReader {
   }
 
   DelimitedTable& table_;
+  RowWatch watch_;
   std::vector<std::string_view> cells_;
   std::vector<ParsedCell> parsed_;
   bool points_ = false;
@@ -174,7 +178,8 @@ std::string DelimitedTable::describe(std::size_t column) const {
   return label.empty() ? number : number + " '" + printable(label) + "'";
 }
 
-DelimitedTable read_delimited(std::string text, const std::string& name, std::string_view section) {
+DelimitedTable read_delimited(std::string text, const std::string& name, std::string_view section,
+                              const Observer& observer) {
   DelimitedTable out;
   out.file = name;
   out.bytes = text.size();
@@ -202,7 +207,7 @@ DelimitedTable read_delimited(std::string text, const std::string& name, std::st
   std::vector<DelimitedColumn> names(cells.size());
   name_columns(out.text, layout, names);
   out.columns = std::move(names);
-  RowReader reader(out, out.columns.size());
+  RowReader reader(out, out.columns.size(), observer);
   reader.read(layout.data_begin, layout.data_line);
   if (out.rows() == 0) throw Error(fmt::format("{}:{}: no complete row was found", name, layout.data_line));
   return out;

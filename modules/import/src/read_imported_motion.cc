@@ -265,7 +265,8 @@ void compare_with_stated(const MappingConfig& config, std::vector<ImportDoubt>& 
   }
 }
 
-ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig& config) {
+ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig& config, const Observer& observer) {
+  observer.update("import", 0.3);
   ImportedMotion out;
   out.streams = read_streams(tables, config);
   if (tables.object) out.object = read_poses(*tables.object, config, out.streams.problems);
@@ -283,21 +284,24 @@ ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig&
     find_up(tables, config, out);
     return out;
   }
+  observer.update("import", 0.5);
   put_on_one_clock(tables, config, out);
   start_near_zero(out);
+  observer.update("import", 0.7);
   out.checks = check_streams(out.streams, units_of_tables(tables, config));
   check_euler_order(tables, config, out);
   compare_with_stated(config, out.checks.doubts);
   find_up(tables, config, out);
+  observer.update("import", 0.9);
   out.noise = estimate_pose_noise(out.streams.pose);
   return out;
 }
 
 // The order that nobody states, by the gyroscope. Throws Error if it does not decide.
-std::string guess_euler_order(const ImportTables& tables, const MappingConfig& config) {
+std::string guess_euler_order(const ImportTables& tables, const MappingConfig& config, const Observer& observer) {
   MappingConfig any = config;
   any.euler = "zyx";
-  const ImportedMotion motion = read_motion_once(tables, any);
+  const ImportedMotion motion = read_motion_once(tables, any, observer);
   const std::string best = motion.streams.rate.size() > 0 ? better_euler_order(tables, any, motion, 0.0) : "";
   if (best.empty()) {
     throw Error(
@@ -331,14 +335,14 @@ void check_units_of_sensors(const ImportTables& tables, std::vector<ImportDoubt>
 
 }  // namespace
 
-ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config) {
+ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config, const Observer& observer) {
   if (config.euler.empty() && tables.pose->preset.euler.empty() && reads_euler_angles(tables)) {
-    tables.pose->preset.euler = guess_euler_order(tables, config);
+    tables.pose->preset.euler = guess_euler_order(tables, config, observer);
   }
-  ImportedMotion out = read_motion_once(tables, config);
+  ImportedMotion out = read_motion_once(tables, config, observer);
   constexpr int kMostExchanges = 6;
   for (int i = 0; i < kMostExchanges && exchange_guessed_unit(out.checks.doubts, tables); ++i) {
-    out = read_motion_once(tables, config);
+    out = read_motion_once(tables, config, observer);
   }
   check_units_of_sensors(tables, out.checks.doubts);
   return out;

@@ -16,7 +16,8 @@ namespace {
 // The high-pass of one run, less its straight line and mirrored at both ends. A mirror image keeps the
 // level of a texture; a point reflection would take an end that lies in a hole for the level, and a
 // line left in would be a kink at the mirror.
-std::vector<double> high_pass_mirrored(std::span<const double> run, double cutoff_cycles_per_mm, double rate_per_mm) {
+std::vector<double> high_pass_mirrored(std::span<const double> run, double cutoff_cycles_per_mm, double rate_per_mm,
+                                       const Observer& observer) {
   const std::size_t n = run.size();
   std::vector<double> at(n);
   for (std::size_t i = 0; i < n; ++i) at[i] = static_cast<double>(i);
@@ -31,6 +32,7 @@ std::vector<double> high_pass_mirrored(std::span<const double> run, double cutof
   for (std::size_t i = pad; i > 0; --i) padded.push_back(level[i]);
   padded.insert(padded.end(), level.begin(), level.end());
   for (std::size_t i = 0; i < pad; ++i) padded.push_back(level[n - 2 - i]);
+  observer.update("texture", 0.3);
   const std::vector<double> filtered = zero_phase_highpass(padded, cutoff_cycles_per_mm, rate_per_mm);
   return {filtered.begin() + static_cast<std::ptrdiff_t>(pad), filtered.begin() + static_cast<std::ptrdiff_t>(pad + n)};
 }
@@ -38,7 +40,7 @@ std::vector<double> high_pass_mirrored(std::span<const double> run, double cutof
 }  // namespace
 
 std::vector<double> extract_texture(std::span<const double> height_m, double spacing_m, double cutoff_cycles_per_mm,
-                                    double bridge_m, std::span<const std::size_t> breaks) {
+                                    double bridge_m, std::span<const std::size_t> breaks, const Observer& observer) {
   if (!(spacing_m > 0.0) || !(cutoff_cycles_per_mm >= 0.0) || !(bridge_m >= 0.0)) {
     throw Error("texture: spacing " + number_text(spacing_m) + " m, cut-off " + number_text(cutoff_cycles_per_mm) +
                 " cycles/mm, bridge " + number_text(bridge_m) + " m");
@@ -46,7 +48,8 @@ std::vector<double> extract_texture(std::span<const double> height_m, double spa
   const double rate_per_mm = 1e-3 / spacing_m;
   const auto bridge = static_cast<std::size_t>(std::lround(bridge_m / spacing_m));
   return filter_runs(height_m, bridge, breaks, 8, [&](std::span<const double> run) {
-    if (cutoff_cycles_per_mm > 0.0) return high_pass_mirrored(run, cutoff_cycles_per_mm, rate_per_mm);
+    observer.update("texture", 0.0);
+    if (cutoff_cycles_per_mm > 0.0) return high_pass_mirrored(run, cutoff_cycles_per_mm, rate_per_mm, observer);
     std::vector<double> level(run.begin(), run.end());
     const double middle = mean(run);
     for (double& h : level) h -= middle;

@@ -207,8 +207,8 @@ Recording simulate_recording(const SimulationConfig& config, const Observer& obs
       config.surface, static_cast<std::uint64_t>(config.surface.seed != 0 ? config.surface.seed : config.seed));
   if (config.shape.kind != BaseShapeKind::kMesh) return simulate_recording(config, *surface, observer);
   if (config.shape.mesh_file.empty()) throw Error("simulation.shape.mesh_file: the file of the mesh is missing");
-  return simulate_recording(config, *surface, to_metres(read_mesh(config.shape.mesh_file), config.shape.mesh_unit_m),
-                            observer);
+  return simulate_recording(
+      config, *surface, to_metres(read_mesh(config.shape.mesh_file, {}, observer), config.shape.mesh_unit_m), observer);
 }
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/import/align_clocks.h"
 #include "asperity/import/check_streams.h"
 #include "asperity/import/import_table.h"
@@ -29,8 +30,9 @@ struct ImportTables {
   std::vector<const ImportTable*> all() const;
 };
 
-// Reads and maps them. Throws Error naming file, line and column.
-ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits = {});
+// Reads and maps them. Throws Error naming file, line and column; Cancelled.
+ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits = {},
+                                const Observer& observer = {});
 
 // Streams of one body, on one clock, in the recording's axes, and how they came about.
 struct ImportedMotion {
@@ -48,8 +50,9 @@ struct ImportedMotion {
 
 // Reads the streams, brings them on one clock and into one frame, and checks them. A unit that was guessed from values
 // and that the checks contradict is exchanged in `tables`. Doubts that remain are in `checks`. Throws Error as
-// read_import_tables, and where times of several files do not overlap and no offset can be found.
-ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config);
+// read_import_tables, and where times of several files do not overlap and no offset can be found; Cancelled between
+// its steps.
+ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config, const Observer& observer = {});
 
 // The noise of the poses that a recording is made with, standard deviation an axis, and where it is from: "stated",
 // "estimated", or "assumed", 0.05 mm and 1 mrad, where the estimate is lower: a tracker that smooths its poses has

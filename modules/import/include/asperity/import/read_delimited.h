@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/import/delimited_table.h"
 #include "asperity/recording/read_limits.h"
 
@@ -21,8 +22,9 @@ namespace asperity {
 // line with text behind it, which is noted; `section` is the line above the table to be read (of Vicon's files, say).
 // A last line without its newline may be cut off: it is left out and noted, as in our own files.
 // Linear in the text. Throws Error naming file, line and column for a row with more cells than the first, an open
-// quote, points and commas as decimal marks, more than 1000 columns, or if no table is found.
-DelimitedTable read_delimited(std::string text, const std::string& name, std::string_view section = {});
+// quote, points and commas as decimal marks, more than 1000 columns, or if no table is found; Cancelled.
+DelimitedTable read_delimited(std::string text, const std::string& name, std::string_view section = {},
+                              const Observer& observer = {});
 
 // The same of a file. Throws Error if it cannot be read or is larger than the limit.
 DelimitedTable read_delimited_file(const std::filesystem::path& path, std::string_view section = {},
