@@ -233,5 +233,20 @@ TEST(Roughness, CutoffsSeparateWavinessAndNoise) {
   EXPECT_NEAR(r.RSm_m, 0.1e-3, 1e-6);
 }
 
+// It ends wherever it is asked: with and without filters, in the features and between transforms.
+TEST(Roughness, EndsWhenItIsCancelled) {
+  const auto z = sampled(60000, 1e-6, [](double x) { return 1e-6 * std::sin(2 * pi * x / 8e-6); });
+  for (const RoughnessConfig& config : {RoughnessConfig{}, RoughnessConfig{.lambda_c_mm = 0.8},
+                                        RoughnessConfig{.lambda_c_mm = 0.8, .filter = ProfileFilter::kRobust}}) {
+    int asked = 0;
+    measure_roughness(z, 1e-6, config, {{}, [&] { return ++asked, false; }});
+    EXPECT_GT(asked, 30);  // a line in 4096 of each pass
+    for (int last = 1; last <= asked; last += 1 + asked / 20) {
+      int now = 0;
+      EXPECT_THROW(measure_roughness(z, 1e-6, config, {{}, [&] { return ++now == last; }}), Cancelled) << last;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace asperity

@@ -56,6 +56,19 @@ TEST(SynthesizeStroke, OfAModelIsTheModels) {
   EXPECT_NEAR(rms(synthesize_stroke(t, {.rate_Hz = 1000.0, .duration_s = 60.0})), 1e-6 * 500.0 / 0.05, 2e-4);
 }
 
+TEST(SynthesizeStroke, EndsWhenItIsCancelled) {
+  AutoregressiveTexture series;
+  series.models.push_back({0.05, 1.0, reflection_to_lsf(std::vector<double>{-0.5, 0.4}), {}, 1.0, 0.3});
+  prepare_autoregressive(series, "test");
+  for (const TextureModel& model :
+       {TextureModel(Fourier1d{2.5, {0.0}, {1e-5}, 0.0}), TextureModel(StochasticTexture{.sigma_m = 1e-6}),
+        TextureModel(DecayingSinusoids{100.0, 0.0, 50.0, 1000.0, 0.05, 0.0, 0.0}), TextureModel(series)}) {
+    Texture t;
+    t.model = model;
+    EXPECT_THROW(synthesize_stroke(t, {.duration_s = 1.0}, {{}, [] { return true; }}), Cancelled);
+  }
+}
+
 TEST(SynthesizeStroke, SameSeedSameSamples) {
   Texture t;
   t.model = StochasticTexture{.sigma_m = 1e-6};
