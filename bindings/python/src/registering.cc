@@ -153,7 +153,7 @@ void add_registering(py::module_& module) {
       .def(
           "__len__", [](const Registration& of) { return of.result.scans.size(); }, "The number of scans.")
       .def("__repr__", [](const Registration& of) {
-        return "<asperity.Registration: " + "scans " + std::to_string(of.result.scans.size()) + ", " +
+        return "<asperity.Registration: scans " + std::to_string(of.result.scans.size()) + ", " +
                (of.result.trustworthy ? "valid" : "invalid") + ">";
       });
   refuse_unmade<Registration>();

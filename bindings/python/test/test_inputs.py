@@ -2,7 +2,6 @@
 
 import copy
 import os
-import pathlib
 import subprocess
 import sys
 

@@ -108,10 +108,12 @@ def test_a_scan_over_a_mesh_is_on_the_mesh(tmp_path):
     assert np.linalg.norm(np.diff(p, axis=0), axis=1).sum() > 0.9 * 1.2 * 0.03
     file = tmp_path / "ball.obj"
     with open(file, "w") as out:
-        np.savetxt(out, 1e3 * vertices, "v %.17g %.17g %.17g")
+        np.savetxt(out, vertices, "v %.17g %.17g %.17g")
         np.savetxt(out, faces + 1, "f %d %d %d")
-    same = asperity.simulate("sandpaper", seed=2, mesh=file, mesh_unit_m=1e-3, through_m=through, settings=settings)
-    np.testing.assert_allclose(same.truth.position_m[-1], path[-1], atol=1e-6)
+    same = asperity.simulate("sandpaper", seed=2, mesh=file, through_m=through, settings=settings)
+    np.testing.assert_array_equal(same.truth.position_m, path)
+    with pytest.raises(asperity.Error):  # the path is not on a ball of 30 µm
+        asperity.simulate("sandpaper", seed=2, mesh=file, mesh_unit_m=1e-3, through_m=through, settings=settings)
     held = asperity.simulate("sandpaper", seed=2, object_motion="held", material="cork", settings={"hand.length_m": 0.02})
     assert len(held) > 100
     for wrong in ({"through_m": through}, {"mesh_unit_m": 1.0}, {"mesh": asperity.Mesh(vertices, faces), "mesh_unit_m": 1e-3}):
@@ -124,8 +126,8 @@ def test_a_recording_is_inspected_and_validated():
     recording.validate()
     found = recording.inspect()
     interval = np.median(np.diff(recording.t_ns)) * 1e-9
-    assert found["probe"]["median_rate_Hz"] == pytest.approx(1 / interval, rel=1e-6)
-    assert found["probe"]["count"] == len(recording)
+    assert found["probe"]["median_rate_hz"] == pytest.approx(1 / interval, rel=1e-6)
+    assert found["probe"]["rows"] == len(recording)
     with pytest.raises(asperity.Error, match="quiet_s"):
         recording.inspect({"quiet_s": -1})
 
