@@ -23,9 +23,9 @@ CALLS = {
     "steps": (
         "r = asperity.Renderer(asperity.Scene(*grid(100))); p = np.tile([0.005, 0.005, -1e-4], (5_000_000, 1))\n"
         "p[:, 0] += 1e-3 * np.sin(1e-3 * np.arange(len(p)))\n"
-        "start = np.tile([0.005, 0.005, 1e-3], (5, 1)); r.steps(start); other = asperity.Renderer(asperity.Scene(*grid(100))); other.steps(start)",
+        "start = np.tile([0.005, 0.005, 1e-3], (5, 1)); r.steps(start); twin = asperity.Renderer(asperity.Scene(*grid(100))); twin.steps(start)",
         "r.steps(p)",
-        "np.array_equal(r.steps(p[:50])['force_N'], other.steps(p[:50])['force_N'])",
+        "np.array_equal(r.steps(p[:50])['force_N'], twin.steps(p[:50])['force_N'])",
     ),
     "closest_points": (
         "m = asperity.Mesh(*grid(300)); p = rng.uniform(-0.05, 0.1, (5_000_000, 3))",
@@ -99,7 +99,7 @@ CALLS = {
     ),
     "simulate": (
         "",
-        "asperity.simulate('sandpaper', settings={'hand.length_m': 2.0, 'hand.speed_mps': 0.01})",
+        "asperity.simulate('sine', settings={'hand.length_m': 0.8, 'hand.speed_mps': 0.01})",
         "True",
     ),
 }

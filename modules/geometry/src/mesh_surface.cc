@@ -85,8 +85,8 @@ NormalFoot foot_at(const MeshSurface& surface, const Eigen::Vector3d& p_m, std::
 
 MeshSurface::MeshSurface(const TriangleMesh& triangles, const Observer& observer)
     : mesh(weld_vertices(triangles)),
-      adjacency(make_adjacency(mesh)),
-      normals(corner_normals(mesh, adjacency)),
+      adjacency((observer.update("mesh", 0.2), make_adjacency(mesh))),
+      normals((observer.update("mesh", 0.4), corner_normals(mesh, adjacency))),
       bvh(mesh, observer) {}
 
 std::uint32_t triangle_across(const MeshAdjacency& adjacency, std::uint32_t triangle, std::size_t edge) noexcept {
