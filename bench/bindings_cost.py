@@ -95,8 +95,8 @@ median = {name: statistics.median(times) for name, times in took.items()}
 ROWS = [
     ("closest point, 69,696 triangles", "Python closest_points", "C++ closest_point", ["SciPy cKDTree, vertices only", "Open3D closest points, float"]),
     ("height of a texture of 128 harmonics", "Python heights", "C++ texture_height", ["NumPy series of 128 cosines"]),
-    ("step of the renderer, many at once", "Python steps", "C++ render_step", []),
-    ("step of the renderer, one at a time", "Python step, a loop", "C++ render_step", []),
+    ("step of the renderer, many at once", "Python steps", "C++ render_step_and_vibration", []),
+    ("step of the renderer, one at a time", "Python step, a loop", "C++ render_step_and_vibration", []),
     ("the same from C, one at a time", "C++ asperity_feel_step", "C++ render_step_and_vibration", []),
     ("the same from C, many at once", "C++ asperity_feel_steps", "C++ render_step_and_vibration", []),
 ]

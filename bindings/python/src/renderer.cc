@@ -68,8 +68,7 @@ class TouchArrays {
             sticking_.mutable_data(),
             inside_.mutable_data()} {}
 
-  void put(std::size_t i, const Touch& touch) noexcept {
-    const ServoOutput& out = touch.out;
+  void put(std::size_t i, const ServoOutput& out, double vibration_N) noexcept {
     at_.force[i] = out.force_N;
     at_.contact[i] = out.contact_N;
     at_.texture[i] = out.texture_N;
@@ -78,7 +77,7 @@ class TouchArrays {
     at_.point[i] = out.contact.p_world_m;
     at_.normal[i] = out.contact.normal_world;
     at_.height[i] = out.texture_height_m;
-    at_.vibration[i] = touch.vibration_N;
+    at_.vibration[i] = vibration_N;
     at_.triangle[i] = out.contact.triangle;
     at_.object[i] = out.contact.object;
     at_.touching[i] = out.contact.found();
@@ -136,7 +135,8 @@ double Renderer::interval_s(std::optional<double> dt_s) const {
   return dt_s ? within(*dt_s, {0.0, kLongest_s}, "dt_s") : 1.0 / rate_Hz();
 }
 
-Touch Renderer::advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps, double dt_s) noexcept {
+template <class Use>
+auto Renderer::advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps, double dt_s, const Use& use) noexcept {
   DeviceState device{p_m, Eigen::Vector3d::Zero(), dt_s};
   if (v_mps != nullptr) {
     device.v_world_mps = *v_mps;
@@ -146,9 +146,8 @@ Touch Renderer::advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps
   tip_.last_m = p_m;
   constexpr double kLongest_s = 1.0;  // between two steps, for the vibration
   tip_.t_ns += static_cast<std::int64_t>(1e9 * std::min(dt_s, kLongest_s));
-  Touch touch{render_step(*model_->acquire(), tip_.state, device)};
-  touch.vibration_N = tip_.vibration.push(touch.out.force_N, device.v_world_mps, tip_.t_ns);
-  return touch;
+  const ServoOutput out = render_step(*model_->acquire(), tip_.state, device);
+  return use(out, tip_.vibration.push(out.force_N, device.v_world_mps, tip_.t_ns));
 }
 
 Touch Renderer::step(py::handle position_m, const std::optional<py::object>& velocity_mps, std::optional<double> dt_s) {
@@ -157,7 +156,9 @@ Touch Renderer::step(py::handle position_m, const std::optional<py::object>& vel
   std::optional<Eigen::Vector3d> v_mps;
   if (velocity_mps) v_mps = vector_of(*velocity_mps, "velocity_mps");
   const OneAtATime alone(steps_);
-  return advance(p_m, v_mps ? &*v_mps : nullptr, interval);
+  return advance(p_m, v_mps ? &*v_mps : nullptr, interval, [](const ServoOutput& output, double vibration_N) {
+    return Touch{output, vibration_N};
+  });
 }
 
 py::dict Renderer::steps(py::handle positions_m, const std::optional<py::object>& velocities_mps,
@@ -177,7 +178,8 @@ py::dict Renderer::steps(py::handle positions_m, const std::optional<py::object>
     interruptible([&](const Observer& observer) {
       const Eigen::Vector3d* const velocity = v ? v->all().data() : nullptr;
       in_blocks(observer, p.size(), [&, at = p.all()](std::size_t i) {
-        out.put(i, advance(at[i], velocity == nullptr ? nullptr : velocity + i, interval));
+        advance(at[i], velocity == nullptr ? nullptr : velocity + i, interval,
+                [&](const ServoOutput& output, double vibration_N) { out.put(i, output, vibration_N); });
       });
     });
   } catch (...) {

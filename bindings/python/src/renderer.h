@@ -49,7 +49,9 @@ class Renderer {
     std::optional<Eigen::Vector3d> last_m;
   };
 
-  Touch advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps, double dt_s) noexcept;
+  // Passes the step's output and vibration to `use`, in place.
+  template <class Use>
+  auto advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps, double dt_s, const Use& use) noexcept;
   double interval_s(std::optional<double> dt_s) const;
 
   std::shared_ptr<const Scene> scene_;
