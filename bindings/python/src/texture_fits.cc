@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -5,7 +6,6 @@
 #include <pybind11/stl.h>
 
 #include "asperity/base/error.h"
-#include "asperity/base/nearest_word.h"
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/session/texture_input.h"
 #include "asperity/texture/evaluate_height.h"
