@@ -45,7 +45,7 @@ bool Command::resolve() {
     try {
       set_field(all, trim(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
     } catch (const Error& error) {
-      throw UsageError(std::string("--set: ") + error.what());
+      throw UsageError("--set: " + setting_fault(error));
     }
   }
   if (print_config_) print_text(json_ ? fields_to_json(all) + "\n" : to_toml(all, true));

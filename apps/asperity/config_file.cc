@@ -5,6 +5,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/base/unknown_setting.h"
 #include "asperity/json/config_json.h"
 
 namespace asperity::app {
@@ -46,7 +47,7 @@ void set_table(const std::string& file, const toml::table& table, const std::str
     try {
       find_field(fields, path).set(value);
     } catch (const Error& error) {
-      fail(file, node.source(), error.what());
+      fail(file, node.source(), setting_fault(error));
     }
   }
 }
@@ -61,6 +62,12 @@ void load_config_file(const std::filesystem::path& path, const std::vector<Confi
   } catch (const toml::parse_error& error) {
     fail(file, error.source(), error.description());
   }
+}
+
+std::string setting_fault(const Error& error) {
+  const auto* unknown = dynamic_cast<const UnknownSetting*>(&error);
+  return std::string(error.what()) +
+         (unknown != nullptr && !unknown->names_nearest() ? "; --print-config lists all settings" : "");
 }
 
 std::string fields_to_json(const std::vector<ConfigField>& fields) { return config_json(fields).dump(2); }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/base/unknown_setting.h"
 #include "handles.h"
 #include "status.h"
 
@@ -62,6 +63,9 @@ asperity_status asperity_settings_set(asperity_settings* settings, const char* n
     asperity::RenderConfig changed = there(settings, "settings").render;
     try {
       asperity::set_field(fields_of(changed), &there(name, "name"), &there(value, "value"));
+    } catch (const asperity::UnknownSetting& fault) {
+      throw BadArgument(std::string(fault.what()) +
+                        (fault.names_nearest() ? "" : "; asperity_settings_name() lists all settings"));
     } catch (const asperity::Error& fault) {
       throw BadArgument(fault.what());
     }

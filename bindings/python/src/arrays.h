@@ -55,6 +55,16 @@ inline std::span<const Eigen::Vector3d> points_of(const Doubles& array, const ch
   return {reinterpret_cast<const Eigen::Vector3d*>(array.data()), static_cast<std::size_t>(array.shape(0))};
 }
 
+// The same; throws ValueError also for a row that is not finite, which has no answer.
+inline std::span<const Eigen::Vector3d> finite_points_of(const Doubles& array, const char* name) {
+  const std::span<const Eigen::Vector3d> rows = points_of(array, name);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].allFinite())
+      throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is not finite");
+  }
+  return rows;
+}
+
 // (n, 3) whole numbers below `vertices`. Throws ValueError and IndexError.
 inline std::vector<std::array<std::uint32_t, 3>> triangles_of(const py::object& given, std::size_t vertices) {
   const py::array array = py::array::ensure(given);

@@ -29,7 +29,7 @@ Mesh mesh_of(const Doubles& vertices_m, const py::object& triangles) {
 
 // Of each point the nearest of the mesh: points (n, 3), distances (n,), triangles (n,).
 py::tuple closest_points(const Mesh& mesh, const Doubles& points_m) {
-  const std::span<const Eigen::Vector3d> points = points_of(points_m, "points_m");
+  const std::span<const Eigen::Vector3d> points = finite_points_of(points_m, "points_m");
   py::array_t<double> nearest = rows_of_three(points.size());
   py::array_t<double> distance(static_cast<py::ssize_t>(points.size()));
   py::array_t<std::uint32_t> triangle(static_cast<py::ssize_t>(points.size()));
@@ -50,8 +50,8 @@ py::tuple closest_points(const Mesh& mesh, const Doubles& points_m) {
 
 // Of each ray the first hit: t (n,), inf without one, and triangles (n,).
 py::tuple cast_rays(const Mesh& mesh, const Doubles& origins_m, const Doubles& directions) {
-  const std::span<const Eigen::Vector3d> origin = points_of(origins_m, "origins_m"),
-                                         direction = points_of(directions, "directions");
+  const std::span<const Eigen::Vector3d> origin = finite_points_of(origins_m, "origins_m"),
+                                         direction = finite_points_of(directions, "directions");
   if (origin.size() != direction.size()) throw py::value_error("directions: as many as origins_m are wanted");
   py::array_t<double> along(static_cast<py::ssize_t>(origin.size()));
   py::array_t<std::uint32_t> triangle(static_cast<py::ssize_t>(origin.size()));

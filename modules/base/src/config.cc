@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nearest_word.h"
 #include "asperity/base/text.h"
+#include "asperity/base/unknown_setting.h"
 
 namespace asperity {
 
@@ -253,8 +254,8 @@ const ConfigField& find_field(const std::vector<ConfigField>& fields, std::strin
   std::string message = "unknown setting '" + printable(path) + "'";
   constexpr std::size_t kMost = 4;  // letters: names are long
   const std::string nearest = nearest_word(path, known, kMost);
-  message += nearest.empty() ? "; --print-config lists them all" : "; did you mean '" + nearest + "'?";
-  throw Error(message);
+  message += nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
+  throw UnknownSetting(message, !nearest.empty());
 }
 
 void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view text) {

@@ -134,7 +134,7 @@ bool is_same_config(Config a, Config b) {
                     [](const ConfigField& x, const ConfigField& y) { return x.get() == y.get(); });
 }
 
-// The field at `path`, or that was there formerly; throws Error for an unknown path, naming the nearest known one.
+// The field at `path`, or that was there formerly; throws UnknownSetting (unknown_setting.h) for another.
 const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path);
 
 // Sets the field at `path` from the text of `--set`.
