@@ -80,6 +80,13 @@ def main():
             named = [plain(holders) for names, holders in stanzas if any(fnmatch.fnmatchcase(name, each) for each in names)]
             if holder and not any(plain(holder[1]) in each for each in named):
                 faults.append(f"packaging/copyright: '{name}' is of '{holder[1]}', which its paragraph does not name")
+    # A report is one file that is passed on: the holders and the terms are in its script.
+    script = build / "studio/web/report/report.js"
+    if script.is_file():
+        begin = plain(script.read_text(encoding="utf-8")[:4000])
+        for text in ("three js authors", "garrett johnson", "jason miller", "preact team", "leon sorokin", "permission is hereby granted"):
+            if text not in begin:
+                faults.append(f"{script}: '{text}' is not at its begin")
     for fault in faults:
         print(fault)
     if not faults:
