@@ -20,7 +20,7 @@ ARGUMENTS = {
     "demo": "--print-config", "export": "no.json -o out --to obj", "feel": "no.json", "import": "--pose no.csv -o out",
     "markers board": "-o no/x.pdf", "markers charuco": "-o no/x.pdf", "markers detect": "no.png",
     "markers ring": "-o no/x.pdf", "markers sheet": "-o no/x.pdf", "merge": "no -o out", "paint": "no.obj --through 0,0,0;1,1,1 --texture no.texture.json -o out",
-    "plot": "no -o x.svg", "process": "no -o out", "realism": "no --stroke no", "record": "--probe file:no --uncalibrated -o out",
+    "plot": "no -o x.svg", "process": "no -o out", "realism": "no --stroke no", "record": "--probe file:no --uncalibrated --duration 1s -o out",
     "register": "no no.obj -o out", "roughness": "no.csv", "simulate": "--mesh no.obj --surface sine -o out", "studio": "no", "texture compare": "no no",
     "texture fit": "no.csv -o x.texture.json", "track": "no --camera no.json --markers no.json -o x.csv",
 }
@@ -35,7 +35,6 @@ OPEN = {
     ("record", "--camera"): {"v4l2:", "y4m:", "images:", "video:"},
     ("record", "--poses"): {"udp:", "pipe:", "file:"},
     ("register", "--placement"): {"auto", "same", "each"},
-    ("simulate", "--surface"): None,
 }
 
 
@@ -53,11 +52,11 @@ def options_of(manual):
 
 def listed(answer):
     """The alternatives that a refusal lists, or nothing."""
-    found = re.search(r"(?:is none of|is neither|not in \{|must be one of:?) ?(.*?)(?:\}|;|\n|$)", answer)
+    found = re.search(r"(?:is none of|is not one of|is neither|not in \{|unknown \w+ 'zzz':) ?(.*?)(?:\}|;|\n|$)", answer)
     if not found:
         return set()
     words = [word.strip(" '\"") for word in re.split(r",|\band\b|\bor\b|\bnor\b", found[1])]
-    return {ALIASES.get(word, word) for word in words if word}
+    return {ALIASES.get(word, word) for word in words if word} - {"a file"}
 
 
 class Program:
@@ -77,11 +76,9 @@ class Program:
 def check(program, options, ask):
     """Faults; ask(lines) gives for each shell what it offers for each line."""
     cases = [(command, names) for command, all_names in options.items() for names in all_names]
-    forms = [(lambda name: f"{name} "), (lambda name: f"{name}=")]
     lines = [f"asperity {command} {names[-1]} ".replace("  ", " ") for command, names in cases]
     lines += [line[:-1] + "=" for line in lines]
     lines += [f"asperity {command} {names[0]} ".replace("  ", " ") for command, names in cases]
-    del forms
     by_shell = ask(lines)
     with_values = 0
     for i, (command, names) in enumerate(cases):
@@ -98,6 +95,7 @@ def check(program, options, ask):
         got = by_shell["bash"][i]
         with_values += bool(got)
         for value in sorted(got):
+            value += "5000" if value.endswith(":") else ""  # the rest of an address: a port, or a file that there is not
             if refusal and NONE in refusal and program.answer(command, option, value) == refusal.replace(NONE, value):
                 yield f"{command} {option} {value}: is offered and refused: {refusal.strip()}"
     if with_values < 25:
