@@ -127,6 +127,12 @@ TEST_F(CLibrary, AFailedCallWritesNothing) {
   EXPECT_EQ(asperity_feel_create(nullptr, settings_, &feel), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(feel, nullptr);
   EXPECT_EQ(asperity_settings_create(nullptr), ASPERITY_BAD_ARGUMENT);
+  asperity_rumble* kept_rumble = nullptr;
+  ASSERT_EQ(asperity_rumble_create(1000.0, 1.0, &kept_rumble), ASPERITY_OK);
+  asperity_rumble* rumble = kept_rumble;
+  EXPECT_EQ(asperity_rumble_create(std::nan(""), 1.0, &rumble), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(rumble, nullptr);
+  asperity_rumble_free(kept_rumble);
 
   // Structures: of the second step nothing is done if the first cannot be.
   std::vector<asperity_motion> motions = stroke(2);
