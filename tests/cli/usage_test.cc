@@ -233,7 +233,8 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
   EXPECT_THAT(completion.out,
               HasSubstr("    calibrate) words=\"camera tracker force accel tip imu latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
-  EXPECT_THAT(completion.out, HasSubstr("    \"process --method\") values=\"fused thesis thesis_tuned raw ekf particle\" ;;"));
+  EXPECT_THAT(completion.out,
+              HasSubstr("    \"process --method\") values=\"fused thesis thesis_tuned raw ekf particle\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
 }
 
