@@ -67,7 +67,7 @@ void load_config_file(const std::filesystem::path& path, const std::vector<Confi
 std::string setting_fault(const Error& error) {
   const auto* unknown = dynamic_cast<const UnknownSetting*>(&error);
   return std::string(error.what()) +
-         (unknown != nullptr && !unknown->names_nearest() ? "; --print-config lists all settings" : "");
+         (unknown != nullptr && !unknown->names_nearest() ? "; --print-config lists them all" : "");
 }
 
 std::string fields_to_json(const std::vector<ConfigField>& fields) { return config_json(fields).dump(2); }

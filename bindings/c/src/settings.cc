@@ -65,7 +65,7 @@ asperity_status asperity_settings_set(asperity_settings* settings, const char* n
       asperity::set_field(fields_of(changed), &there(name, "name"), &there(value, "value"));
     } catch (const asperity::UnknownSetting& fault) {
       throw BadArgument(std::string(fault.what()) +
-                        (fault.names_nearest() ? "" : "; asperity_settings_name() lists all settings"));
+                        (fault.names_nearest() ? "" : "; asperity_settings_name() lists them"));
     } catch (const asperity::Error& fault) {
       throw BadArgument(fault.what());
     }

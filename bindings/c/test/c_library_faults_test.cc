@@ -185,7 +185,7 @@ TEST_F(CLibrary, ARefusedChangeChangesNothing) {
 TEST_F(CLibrary, ErrorsNameNoOptionOfACommandLine) {
   const auto has_option = [] { return std::string(asperity_last_error()).find("--") != std::string::npos; };
   EXPECT_EQ(asperity_settings_set(settings_, "zzzzzzzz", "1"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_STREQ(asperity_last_error(), "unknown setting 'zzzzzzzz'; asperity_settings_name() lists all settings");
+  EXPECT_STREQ(asperity_last_error(), "unknown setting 'zzzzzzzz'; asperity_settings_name() lists them");
   // Each setting with a value that it cannot have.
   for (std::size_t i = 0; i < asperity_settings_count(); ++i) {
     for (const char* value : {"zzz", "nan", "-1e300", "[1"}) {
