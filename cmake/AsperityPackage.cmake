@@ -12,6 +12,7 @@ add_custom_target(package_files
   COMMAND "${CMAKE_COMMAND}" -E make_directory "${packaging}"
   COMMAND asperity_app --man > "${packaging}/asperity.1"
   COMMAND gzip -9nf "${packaging}/asperity.1"
+  COMMAND gzip -9nc "${packaging}/asperity_openhaptics.1" > "${packaging}/asperity_openhaptics.1.gz"
   COMMAND asperity_app --completion bash > "${packaging}/asperity"
   COMMAND asperity_app --completion zsh > "${packaging}/_asperity"
   COMMAND asperity_app --completion fish > "${packaging}/asperity.fish"
@@ -21,15 +22,17 @@ add_custom_target(package_files
 # Debian's own form of a changelog: that there is this version, of the date that the manual page has.
 file(STRINGS modules/base/include/asperity/base/version.h packaging_date REGEX kVersionDate)
 string(REGEX REPLACE ".*\"([0-9-]+)\".*" "\\1" packaging_date "${packaging_date}")
+set(packaging_day "${packaging_date}")
 execute_process(COMMAND date -u -R -d "${packaging_date}" OUTPUT_VARIABLE packaging_date OUTPUT_STRIP_TRAILING_WHITESPACE)
 configure_file(packaging/changelog.in "${packaging}/changelog" @ONLY)
+configure_file(packaging/asperity_openhaptics.1.in "${packaging}/asperity_openhaptics.1" @ONLY)
 # All that is installed.
 list(TRANSFORM modules PREPEND asperity_ OUTPUT_VARIABLE installed)
 add_dependencies(package_files ${installed} asperity_feel asperity_firmware_core asperity_firmware_drivers)
 if(TARGET asperity_python)
   add_dependencies(package_files asperity_python)
 endif()
-install(FILES "${packaging}/asperity.1.gz" DESTINATION share/man/man1 COMPONENT program OPTIONAL)
+install(FILES "${packaging}/asperity.1.gz" "${packaging}/asperity_openhaptics.1.gz" DESTINATION share/man/man1 COMPONENT program OPTIONAL)
 install(FILES "${packaging}/asperity" DESTINATION share/bash-completion/completions COMPONENT program OPTIONAL)
 install(FILES "${packaging}/_asperity" DESTINATION share/zsh/vendor-completions COMPONENT program OPTIONAL)
 install(FILES "${packaging}/asperity.fish" DESTINATION share/fish/vendor_completions.d COMPONENT program OPTIONAL)

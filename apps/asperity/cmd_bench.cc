@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/random.h"
 #include "asperity/base/version.h"
 #include "asperity/geometry/mesh_surface.h"
@@ -69,7 +70,8 @@ class BenchCommand : public Command {
         ->type_name("FILE");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Unit of the mesh file: m (the default), mm or a length such as 0.06m")
-        ->type_name("UNIT");
+        ->type_name("UNIT")
+        ->suggest(length_unit_names());
     parser().add_option("--tip", tip_, "render: radius of the tip; default: a point")->type_name("LENGTH");
   }
 

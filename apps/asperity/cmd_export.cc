@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asperity/base/folder_content.h"
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -37,7 +38,9 @@ class ExportCommand : public Command {
             "--to", format_,
             "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
             "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif"))
-        ->type_name("FORMAT");
+        ->type_name("FORMAT")
+        ->suggest(kExportFormatNames)
+        ->suggest(kHeightFileNames);
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
     parser()
         .add_option("--speed", speed_, "Speed of the stroke, for wav, ahap, haps and forces in time")
@@ -49,7 +52,8 @@ class ExportCommand : public Command {
     parser()
         .add_option("--mesh-unit", mesh_unit_,
                     "Unit of a mesh that is given without a scene: m, mm or a length such as 0.06m")
-        ->type_name("LENGTH");
+        ->type_name("LENGTH")
+        ->suggest(length_unit_names());
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "asperity/base/folder_content.h"
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -44,6 +45,12 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
+std::vector<std::string_view> device_names() {
+  std::vector<std::string_view> out;
+  for (const DeviceKind& kind : device_kinds()) out.push_back(kind.name);
+  return out;
+}
+
 // "sim (the default), replay or haply": all devices, with remarks on some.
 std::string device_list(std::string_view last, const std::map<std::string_view, std::string_view>& remarks) {
   std::string out;
@@ -73,7 +80,8 @@ class FeelCommand : public Command {
         .add_option(
             "--device", device_,
             device_list("or", {{"sim", "the default: a modelled hand"}, {"replay", "the default with --replay"}}))
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(device_names());
     parser()
         .add_option("--replay", replay_,
                     "trajectory.csv with the positions of the device point in the scene's world; or a recording, "
@@ -90,13 +98,15 @@ class FeelCommand : public Command {
     parser()
         .add_option("--mesh-unit", options_.mesh_unit,
                     "Unit of a mesh given without a scene: m (the default), mm, or a length such as 0.06m")
-        ->type_name("LENGTH");
+        ->type_name("LENGTH")
+        ->suggest(length_unit_names());
     parser().add_option("--tip", tip_, "Radius of the tip; default: a point")->type_name("LENGTH");
     parser()
         .add_option("--texture-model", model_,
                     "height, normal-perturbation, lateral-gradient, stochastic, autoregressive or decaying-sinusoids, "
                     "for all textures; auto: each its own")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kTextureForceModelNames);
     parser()
         .add_option("--stiffness", stiffness_, "Stiffness where the scene states none, N/m; default: 1000")
         ->type_name("K");

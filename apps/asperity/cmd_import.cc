@@ -78,9 +78,13 @@ class ImportCommand : public Command {
         .add_option("--object-pose", object_pose_, "Poses of the object, where it moves: the scan is relative to it")
         ->type_name("FILE");
     settings_.resize(std::size(kSettingOptions));
+    const std::vector<ConfigField> known = ImportCommand::fields();
     for (std::size_t i = 0; i < std::size(kSettingOptions); ++i) {
       const SettingOption& option = kSettingOptions[i];
-      parser().add_option(option.option, settings_[i], option.description)->type_name(option.type);
+      parser()
+          .add_option(option.option, settings_[i], option.description)
+          ->type_name(option.type)
+          ->suggest(find_field(known, option.setting).choices);
     }
     parser().add_flag("--invert-rotation", invert_, "The rotations are from the world to the body");
     parser().add_flag("--left-handed", left_handed_, "The world's and the body's axes are left-handed");

@@ -24,6 +24,8 @@ class MarkersDetectCommand : public Command {
     require(parser().add_option("IMAGE", images_, "PNG, JPEG or PGM"));
     parser()
         .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
+        ->suggest(apriltag_families())
+        ->suggest(std::array{"aruco:"})
         ->show_default();
     parser().add_option("-o,--output", output_, "Write a table of the corners")->type_name("FILE.csv");
   }

@@ -122,6 +122,8 @@ class PrintCommand : public Command {
     family_ = default_family;
     parser()
         .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
+        ->suggest(apriltag_families())
+        ->suggest(std::array{"aruco:"})
         ->show_default();
   }
   void add_markers() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/base/folder_content.h"
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -62,7 +63,8 @@ class PaintCommand : public Command {
     parser().add_flag("--under", under_, "Lay the texture under those that the scene has, not over them");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
-        ->type_name("LENGTH");
+        ->type_name("LENGTH")
+        ->suggest(length_unit_names());
     parser().add_option("--rings", rings_, "Number of rings of triangles around those under the path")->type_name("N");
     parser()
         .add_option("--width", width_, "Width of the stroke around its middle line, instead of rings")

@@ -36,7 +36,8 @@ class PlotCommand : public Command {
     parser()
         .add_option("--parts", parts_text_,
                     "Panels: profile, texture, spectrum, path, compliance, map; all if not given")
-        ->type_name("PART,…");
+        ->type_name("PART,…")
+        ->suggest(studio::kFigurePartNames);
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");

@@ -188,7 +188,8 @@ class ProcessCommand : public Command {
     parser().add_option("--segment", segment_, "Process only this segment of each recording")->type_name("NAME");
     parser()
         .add_option("--method", method_, "The first is the default: " + ProcessMethods::describe())
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kMethodNames);
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }

@@ -48,8 +48,12 @@ class RecordCommand : public Command {
     settings_.recorder.start_at_once = true;
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
-        ->type_name("ADDRESS");
-    parser().add_option("--protocol", input_.protocol, "open (the default) or what")->type_name("NAME");
+        ->type_name("ADDRESS")
+        ->suggest(std::array{"serial:", "usb:", "udp:", "file:"});
+    parser()
+        .add_option("--protocol", input_.protocol, "open (the default) or what")
+        ->type_name("NAME")
+        ->suggest(kProbeProtocolNames);
     parser()
         .add_option("--capture", input_.capture,
                     "Also write the bytes of the probe to a new file, for --probe file:CAPTURE")
@@ -57,19 +61,24 @@ class RecordCommand : public Command {
     parser()
         .add_option("--camera", input_.camera,
                     "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE (by ffmpeg)")
-        ->type_name("ADDRESS");
+        ->type_name("ADDRESS")
+        ->suggest(std::array{"v4l2:", "y4m:", "images:", "video:"});
     parser()
         .add_option("--markers", input_.markers, "Tags on the probe; default: those of the calibration")
         ->type_name("markers.json");
     parser()
         .add_option("--poses", input_.poses,
                     "Lines t_ns,px_m,… of another tracker instead of a camera: udp:PORT, pipe:PATH or file:PATH")
-        ->type_name("ADDRESS");
+        ->type_name("ADDRESS")
+        ->suggest(std::array{"udp:", "pipe:", "file:"});
     parser()
         .add_option("--body", input_.bodies,
                     "A further body of --poses, whose lines begin with its name: object makes the scan relative to it")
         ->type_name("NAME");
-    parser().add_option("--world", info_.world, "The poses' world: camera (the default) or z_up")->type_name("NAME");
+    parser()
+        .add_option("--world", info_.world, "The poses' world: camera (the default) or z_up")
+        ->type_name("NAME")
+        ->suggest(std::array{"camera", "z_up"});
     parser()
         .add_option("--calibration", input_.calibration, "Calibration of the probe, the camera and the tracker")
         ->type_name("calibration.json");

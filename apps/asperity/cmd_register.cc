@@ -14,6 +14,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/folder_content.h"
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -62,7 +63,8 @@ class RegisterCommand : public Command {
         ->type_name("YYYY-MM-DD");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
-        ->type_name("LENGTH");
+        ->type_name("LENGTH")
+        ->suggest(length_unit_names());
     Option* guess =
         parser()
             .add_option(
@@ -91,7 +93,8 @@ class RegisterCommand : public Command {
         .add_option("--placement", placement_,
                     "Which scans lay in the same placement of the object: auto (the default; found by their "
                     "likelihood), same, each (its own), or a list with one number per path, such as 1,1,2")
-        ->type_name("LIST");
+        ->type_name("LIST")
+        ->suggest(kPlacementModeNames);
     parser()
         .add_option("-o,--output", output_, "Folder of the results (required without --into)")
         ->type_name("OUT")
@@ -100,7 +103,8 @@ class RegisterCommand : public Command {
         .add_option("--method", method_,
                     "Of measuring, and of thesis also of registering, which needs a guess; the first is the default: " +
                         ProcessMethods::describe())
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kMethodNames);
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }

@@ -37,7 +37,8 @@ class RoughnessCommand : public Command {
     parser()
         .add_option("--filter", filter_,
                     "gaussian (ISO 16610-21, of maps 16610-61), or robust (16610-31, 16610-71) for deep pits")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kProfileFilterNames);
     parser()
         .add_option("--noise", noise_,
                     "Standard deviation of a map's heights, as the instrument states it; gives intervals")
@@ -46,7 +47,8 @@ class RoughnessCommand : public Command {
     parser().add_option("--report", report_, "Write values and plots as one page")->type_name("FILE.html");
     parser()
         .add_option("--class", class_, "Setting class: Sc1 to Sc5 (λc 0.08, 0.25, 0.8, 2.5, 8 mm), or auto")
-        ->type_name("CLASS");
+        ->type_name("CLASS")
+        ->suggest(kFiltersNames);
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -28,23 +29,31 @@ class SimulateCommand : public Command {
   explicit SimulateCommand(Parser& root)
       : Command(root, "simulate", "Simulate a recording: a hand scans a surface with a probe in front of a tracker") {
     std::string names;
+    std::vector<std::string_view> surfaces;
     for (const auto name : kSurfaceNames) {
-      if (name != "file") names += std::string(names.empty() ? "" : ", ") + std::string(name);
+      if (name == "file") continue;  // that is, a file's name
+      names += std::string(names.empty() ? "" : ", ") + std::string(name);
+      surfaces.push_back(name);
     }
-    require(parser().add_option("--surface", surface_, names + ", or a file of heights"))->type_name("NAME|FILE");
+    require(parser().add_option("--surface", surface_, names + ", or a file of heights"))
+        ->type_name("NAME|FILE")
+        ->suggest(surfaces);
     parser()
         .add_option("--probe", probe_,
                     "open (the default: 16 bit, 4 kHz), or what (8 bit, 400 Hz: the probe of the thesis)")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kProbeModelNames);
     parser()
         .add_option("--material", material_, "Material of the surface: stiff (the default), cork or soft_rubber")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kContactMaterialNames);
     parser()
         .add_option("--mesh", mesh_, "A mesh to scan over; the surface is laid on it along the path")
         ->type_name("FILE");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Unit of the mesh file: m (the default), mm or a length such as 0.06m")
-        ->type_name("UNIT");
+        ->type_name("UNIT")
+        ->suggest(length_unit_names());
     parser()
         .add_option("--through", through_,
                     "Points of the path over the mesh, in its own frame, m; default: a path is chosen")
@@ -53,7 +62,8 @@ class SimulateCommand : public Command {
         .add_option(
             "--object-motion", object_motion_,
             "none (the default), held (in the other hand, with a marker body on it) or turned (held and rotated)")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->suggest(kSimulatedObjectMotionNames);
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
     parser().add_option("--seed", seed_, "Random seed; the same seed gives the same bytes")->type_name("N");
     parser().add_flag("--live", live_,

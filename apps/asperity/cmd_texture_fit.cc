@@ -127,7 +127,7 @@ class TextureFitCommand : public Command {
                             "*.texture.json, a Penn *.xml, a stroke's folder (import --stroke), or (autoregressive) a "
                             "recording"));
     require(parser().add_option("-o,--output", output_, "The texture's file"))->type_name("X.texture.json");
-    parser().add_option("--model", model_, model_names())->type_name("NAME");
+    parser().add_option("--model", model_, model_names())->type_name("NAME")->suggest(kFittedModelNames);
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");

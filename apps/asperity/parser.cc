@@ -1,6 +1,7 @@
 #include "parser.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <set>
 
 #include "asperity/base/nearest_word.h"
@@ -10,7 +11,8 @@ namespace asperity::app {
 
 Option* Option::type_name(const std::string& name) { return option_->type_name(name), this; }
 Option* Option::one_of(std::initializer_list<const char*> values) {
-  return option_->check(CLI::IsMember(std::vector<std::string>(values.begin(), values.end()))), this;
+  choices_.assign(values.begin(), values.end());
+  return option_->check(CLI::IsMember(choices_)), this;
 }
 Option* Option::in_range(int low, int high) { return option_->check(CLI::Range(low, high)), this; }
 Option* Option::excludes(Option* other) { return option_->excludes(other->option_), this; }
@@ -146,7 +148,11 @@ std::vector<const Parser*> Parser::subcommands() const {
 
 std::vector<Option> Parser::options() const {
   std::vector<Option> out;
-  for (CLI::Option* option : app_->get_options()) out.emplace_back(*option);
+  for (CLI::Option* option : app_->get_options()) {
+    const auto kept =
+        std::find_if(options_.begin(), options_.end(), [&](const Option& one) { return one.option_ == option; });
+    out.push_back(kept == options_.end() ? Option(*option) : *kept);  // --help is of CLI11 itself
+  }
   return out;
 }
 

@@ -24,7 +24,15 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option* type_name(const std::string& name);  // of its value, as the help prints it
+  // The parser refuses all other values.
   Option* one_of(std::initializer_list<const char*> values);
+  // Values that a shell completes, of an option that the command checks: all that it takes, or those beside which there
+  // are files, lengths or addresses. One that ends in a colon is the beginning of a value.
+  template <class Names>
+  Option* suggest(const Names& values) {
+    for (const auto& value : values) choices_.emplace_back(value);
+    return this;
+  }
   Option* in_range(int low, int high);
   Option* excludes(Option* other);
   Option* show_default();
@@ -38,11 +46,14 @@ class Option {
   std::string names() const;  // "-o,--output", or a positional's name
   std::string value_name() const;
   std::string description() const;
-  std::vector<std::string> long_names() const;   // without dashes
-  std::vector<std::string> short_names() const;  // without a dash
+  const std::vector<std::string>& choices() const { return choices_; }  // of one_of() or suggest(); empty: any value
+  std::vector<std::string> long_names() const;                          // without dashes
+  std::vector<std::string> short_names() const;                         // without a dash
 
  private:
+  friend class Parser;
   CLI::Option* option_;
+  std::vector<std::string> choices_;
 };
 
 // What a command line came to.

@@ -1,12 +1,9 @@
 #include "shell_completion.h"
 
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/pipeline/process_config.h"
-#include "asperity/simulation/simulation_config.h"
 
 namespace asperity::app {
 
@@ -28,24 +25,50 @@ std::string names_below(const Parser& app) {
   return out;
 }
 
-// Options without dashes, and the words that may follow each.
-using OptionValues = std::vector<std::pair<std::string, std::string>>;
-
-OptionValues option_values() {
-  OptionValues out;
-  // "file" is none: a file's name is.
-  const auto add = [&out](const char* option, const auto& names) {
-    std::string values;
-    for (const std::string_view name : names) {
-      if (name != "file") values += (values.empty() ? "" : " ") + std::string(name);
-    }
-    out.emplace_back(option, values);
-  };
-  add("method", kMethodNames);
-  add("probe", kProbeModelNames);
-  add("surface", kSurfaceNames);
-  add("completion", std::vector<std::string_view>{"bash", "fish", "zsh"});
+std::string joined(const std::vector<std::string>& values) {
+  std::string out;
+  for (const std::string& value : values) out += (out.empty() ? "" : " ") + value;
   return out;
+}
+
+// One line of a `case` over "COMMAND OPTION", the option as it is typed, or "COMMAND" for a positional argument, for
+// each with choices, of the command and of those below it.
+struct CaseSyntax {
+  std::string_view variable;  // that gets the choices
+  std::string_view open, close;
+};
+
+std::string choice_cases(const Parser& app, const std::string& command, bool positional, const CaseSyntax& syntax) {
+  std::string out;
+  for (const Option& option : app.options()) {
+    if (option.choices().empty() || option.is_positional() != positional) continue;
+    std::string pattern;
+    if (positional) {
+      pattern = "\"" + command + "\"";
+    } else {
+      for (const std::string& name : option.long_names()) {
+        pattern += (pattern.empty() ? "\"" : " | \"") + command + " --" + name + "\"";
+      }
+      for (const std::string& name : option.short_names()) {
+        pattern += (pattern.empty() ? "\"" : " | \"") + command + " -" + name + "\"";
+      }
+    }
+    out += "    " + pattern + ") " + std::string(syntax.variable) + "=" + std::string(syntax.open) +
+           joined(option.choices()) + std::string(syntax.close) + " ;;\n";
+  }
+  for (const Parser* below : app.subcommands()) {
+    out += choice_cases(*below, command.empty() ? below->name() : command + " " + below->name(), positional, syntax);
+  }
+  return out;
+}
+
+// "texture | markers": the commands that have commands below them.
+std::string groups(const Parser& root) {
+  std::string out;
+  for (const Parser* command : root.subcommands()) {
+    if (!command->subcommands().empty()) out += (out.empty() ? "" : " | ") + command->name();
+  }
+  return out.empty() ? "''" : out;
 }
 
 std::string bash_completion(const Parser& root) {
@@ -59,32 +82,54 @@ std::string bash_completion(const Parser& root) {
       cases_below += "    \"" + command->name() + " " + below->name() + "\") words=\"" + words(*below) + "\" ;;\n";
     }
   }
-  std::string values;
-  for (const auto& [option, names] : option_values()) values += "    --" + option + ") values=\"" + names + "\" ;;\n";
+  const CaseSyntax syntax{"values", "\"", "\""};
+  // A word ends at = and at : (COMP_WORDBREAKS), so that --probe=open is three.
   return "# bash completion for asperity: source it, or put it in /etc/bash_completion.d/\n"
          "_asperity() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} names=1 words=\"" +
+         "  local current=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD-1]} before= names=1 words=\"" +
          names_below(root) + words(root) +
          "\"\n"
+         "  if [[ $current == [=:] ]]; then\n"
+         "    current=\n"
+         "  elif [[ $option == = && $COMP_CWORD -gt 1 ]]; then\n"
+         "    option=${COMP_WORDS[COMP_CWORD-2]}\n"
+         "  elif [[ $current == --*=* ]]; then\n"
+         "    option=${current%%=*} before=${current%%=*}= current=${current#*=}\n"
+         "  fi\n"
          "  [[ $COMP_CWORD -lt 2 ]] || case ${COMP_WORDS[1]} in\n" +
          cases +
          "  esac\n"
          "  [[ $COMP_CWORD -lt 3 ]] || case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" in\n" +
          cases_below +
          "  esac\n"
-         "  local values=\n"
-         "  case ${COMP_WORDS[COMP_CWORD-1]} in\n" +
-         values +
+         "  local command=${COMP_WORDS[1]} values=\n"
+         "  case $command in\n"
+         "    -*) command= ;;\n"
+         "    " +
+         groups(root) +
+         ") command+=\" ${COMP_WORDS[2]}\" ;;\n"
+         "  esac\n"
+         "  case \"$command $option\" in\n" +
+         choice_cases(root, "", false, syntax) +
+         "  esac\n"
+         "  [[ $values || $COMP_CWORD -le $names || $option == -* ]] || case $command in\n" +
+         choice_cases(root, "", true, syntax) +
          "  esac\n"
          "  COMPREPLY=()\n"
          "  if [[ $values && $current != -* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$current\")\n"
-         "    [[ ${#COMPREPLY[@]} -gt 0 ]] || mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
-         "  elif [[ $COMP_CWORD -le $names || $current == -* ]]; then\n"
+         "    if [[ ${#COMPREPLY[@]} -eq 0 ]]; then\n"
+         "      mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
+         "    else\n"
+         "      compopt +o filenames 2>/dev/null\n"  // which would put a backslash before a colon
+         "      [[ ${#COMPREPLY[@]} -ne 1 || ${COMPREPLY[0]} != *: ]] || compopt -o nospace 2>/dev/null\n"
+         "    fi\n"
+         "  elif [[ ! $before && ( $COMP_CWORD -le $names || $current == -* ) ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
          "  else\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
          "  fi\n"
+         "  COMPREPLY=(\"${COMPREPLY[@]/#/$before}\")\n"
          "}\n"
          "complete -o filenames -F _asperity asperity\n";
 }
@@ -100,12 +145,11 @@ std::string zsh_completion(const Parser& root) {
       cases_below += "    '" + command->name() + " " + below->name() + "') choices=(" + words(*below) + ") ;;\n";
     }
   }
-  std::string values;
-  for (const auto& [option, names] : option_values()) values += "    --" + option + ") values=(" + names + ") ;;\n";
+  const CaseSyntax syntax{"values", "(", ")"};
   return "#compdef asperity\n"
          "# zsh completion for asperity: source it, or put it as _asperity into a folder of $fpath\n"
          "_asperity() {\n"
-         "  local named=2\n"
+         "  local named=2 command=${words[2]} option=${words[CURRENT-1]}\n"
          "  local -a choices values\n"
          "  choices=(" +
          names_below(root) + words(root) +
@@ -116,11 +160,27 @@ std::string zsh_completion(const Parser& root) {
          "  (( CURRENT < 4 )) || case \"${words[2]} ${words[3]}\" in\n" +
          cases_below +
          "  esac\n"
-         "  case ${words[CURRENT-1]} in\n" +
-         values +
+         "  case $command in\n"
+         "    -*) command= ;;\n"
+         "    " +
+         groups(root) +
+         ") command+=\" ${words[3]}\" ;;\n"
+         "  esac\n"
+         "  if [[ $PREFIX == --*=* ]]; then\n"
+         "    option=${PREFIX%%=*} named=0\n"
+         "    compset -P '*='\n"
+         "  fi\n"
+         "  case \"$command $option\" in\n" +
+         choice_cases(root, "", false, syntax) +
+         "  esac\n"
+         "  (( ${#values} || CURRENT <= named )) || [[ $option == -* ]] || case $command in\n" +
+         choice_cases(root, "", true, syntax) +
          "  esac\n"
          "  if (( ${#values} )) && [[ $PREFIX != -* ]]; then\n"
-         "    compadd -a values || _files\n"
+         "    local found=1\n"
+         "    compadd -S '' -- ${(M)values:#*:} && found=0\n"
+         "    compadd -- ${values:#*:} && found=0\n"
+         "    (( ! found )) || { compset -P '*:'; _files }\n"
          "  elif (( CURRENT <= named )) || [[ $PREFIX == -* ]]; then\n"
          "    compadd -a choices\n"
          "  else\n"
@@ -140,19 +200,18 @@ std::string fish_quoted(const std::string& text) {
 }
 
 // The options of one command, offered where `condition` holds.
-std::string fish_options(const Parser& app, const std::string& condition, const OptionValues& values) {
+std::string fish_options(const Parser& app, const std::string& condition) {
   std::string out;
   for (const Option& option : app.options()) {
-    if (option.is_positional()) continue;
+    const std::string choices = option.choices().empty() ? "" : " -a " + fish_quoted(joined(option.choices()));
+    if (option.is_positional()) {
+      if (!choices.empty()) out += "complete -c asperity -n " + fish_quoted(condition) + choices + "\n";
+      continue;
+    }
     out += "complete -c asperity -n " + fish_quoted(condition);
     for (const std::string& name : option.short_names()) out += " -s " + name;
-    for (const std::string& name : option.long_names()) {
-      out += " -l " + name;
-      for (const auto& [known, names] : values) {
-        if (known == name) out += " -a " + fish_quoted(names);
-      }
-    }
-    out += (option.takes_value() ? " -r -d " : " -d ") + fish_quoted(option.description()) + "\n";
+    for (const std::string& name : option.long_names()) out += " -l " + name;
+    out += choices + (option.takes_value() ? " -r -d " : " -d ") + fish_quoted(option.description()) + "\n";
   }
   return out;
 }
@@ -163,18 +222,17 @@ std::string fish_command(const Parser& app, const std::string& condition) {
 }
 
 std::string fish_completion(const Parser& root) {
-  const OptionValues values = option_values();
   std::string out =
       "# fish completion for asperity: source it, or put it into ~/.config/fish/completions/asperity.fish\n";
-  out += fish_options(root, "__fish_use_subcommand", values);
+  out += fish_options(root, "__fish_use_subcommand");
   for (const Parser* command : root.subcommands()) {
     const std::string seen = "__fish_seen_subcommand_from " + command->name();
     const std::string names = names_below(*command);
     const std::string itself = names.empty() ? seen : seen + "; and not __fish_seen_subcommand_from " + names;
-    out += fish_command(*command, "__fish_use_subcommand") + fish_options(*command, itself, values);
+    out += fish_command(*command, "__fish_use_subcommand") + fish_options(*command, itself);
     for (const Parser* below : command->subcommands()) {
       out += fish_command(*below, itself);
-      out += fish_options(*below, seen + "; and __fish_seen_subcommand_from " + below->name(), values);
+      out += fish_options(*below, seen + "; and __fish_seen_subcommand_from " + below->name());
     }
   }
   return out;

@@ -1,4 +1,6 @@
-"""Packs a built package folder as a wheel (PEP 427): pack_wheel.py PACKAGE LICENSE FOLDER. The same bytes each time."""
+"""Packs a built package folder as a wheel (PEP 427): pack_wheel.py PACKAGE LICENSE COPYRIGHT FOLDER. The same bytes each time.
+
+COPYRIGHT has the licences of what is compiled into the module; it lies beside LICENSE in the wheel."""
 
 import base64
 import hashlib
@@ -10,7 +12,7 @@ import zipfile
 
 
 def main() -> int:
-    package, license_file, folder = (pathlib.Path(argument) for argument in sys.argv[1:4])
+    package, license_file, copyright_file, folder = (pathlib.Path(argument) for argument in sys.argv[1:5])
     modules = list(package.glob("_asperity.*.so"))
     if len(modules) != 1:
         print(f"wheel: {package}: _asperity.*.so is not there; build the target asperity_python first", file=sys.stderr)
@@ -32,6 +34,7 @@ def main() -> int:
         "License: BSD-3-Clause\nRequires-Python: >=3.11\nRequires-Dist: numpy\n"
     ).encode()
     files[f"{info}/LICENSE"] = license_file.read_bytes()
+    files[f"{info}/COPYRIGHT"] = copyright_file.read_bytes()
     files[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: asperity\nRoot-Is-Purelib: false\nTag: {tag}-{tag}-{platform}\n"
     ).encode()

@@ -1,5 +1,6 @@
 // A command, as docs/architecture.md tells to add one.
 #include <gmock/gmock.h>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,6 +94,22 @@ TEST(AddingACommand, ItIsInTheManualAndInTheCompletions) {
   const std::unique_ptr<Command> command = make_lines(root);
   EXPECT_THAT(manual_page(root), testing::HasSubstr("Counts the lines of a file"));
   EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("lines"));
+}
+
+// Values of an option are completed because it declares them, whether the parser checks them or the command does.
+TEST(AddingACommand, TheValuesOfAnOptionAreCompletedForThisCommand) {
+  Parser root("asperity", "");
+  const std::unique_ptr<Command> command = make_lines(root);
+  std::string end, unit;
+  command->parser().add_option("-e,--end", end, "How a line ends")->one_of({"lf", "crlf"});
+  command->parser().add_option("--unit", unit, "Of the count")->suggest(std::vector<std::string>{"one", "dozen"});
+  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("\"lines --end\" | \"lines -e\") values=\"lf crlf\""));
+  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("\"lines --unit\") values=\"one dozen\""));
+  EXPECT_THAT(shell_completion("zsh", root), testing::HasSubstr("\"lines --unit\") values=(one dozen)"));
+  EXPECT_THAT(shell_completion("fish", root), testing::HasSubstr("from lines' -l unit -a 'one dozen' -r"));
+  std::string program = "asperity", name = "lines", option = "--end", value = "cr";
+  std::array<char*, 4> words{program.data(), name.data(), option.data(), value.data()};
+  EXPECT_EQ(root.parse(4, words.data()).kind, ParsedLine::Kind::kFault);
 }
 
 }  // namespace

@@ -233,7 +233,8 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
   EXPECT_THAT(completion.out,
               HasSubstr("    calibrate) words=\"camera tracker force accel tip imu latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
-  EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis thesis_tuned raw ekf particle\" ;;"));
+  EXPECT_THAT(completion.out,
+              HasSubstr("    \"process --method\") values=\"fused thesis thesis_tuned raw ekf particle\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
 }
 
@@ -259,7 +260,7 @@ TEST(Usage, CompletionsForFishAndZshNameEveryCommand) {
       HasSubstr(
           "-n '__fish_seen_subcommand_from process' -l method -a 'fused thesis thesis_tuned raw ekf particle' -r -d "));
   EXPECT_THAT(zsh.out, HasSubstr("    'texture fit') choices=("));
-  EXPECT_THAT(zsh.out, HasSubstr("    --method) values=(fused thesis thesis_tuned raw ekf particle) ;;"));
+  EXPECT_THAT(zsh.out, HasSubstr("    \"process --method\") values=(fused thesis thesis_tuned raw ekf particle) ;;"));
 }
 
 TEST(Usage, AFullDiskIsAnError) {

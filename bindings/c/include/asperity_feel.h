@@ -39,8 +39,8 @@ extern "C" {
 #define ASPERITY_FEEL_MAJOR 1
 #define ASPERITY_FEEL_MINOR 2
 
-/* What became of a call. On anything but ASPERITY_OK nothing was changed, handles that were to be written are NULL, and
- * asperity_last_error() says why. */
+/* What became of a call. On anything but ASPERITY_OK nothing was changed and no array was written; handles that were to
+ * be written are NULL, counts are 0, and asperity_last_error() states why. */
 typedef enum asperity_status {
   ASPERITY_OK = 0,
   ASPERITY_BAD_ARGUMENT = 1, /* NULL, an index or number out of range, an unknown name */

@@ -107,11 +107,14 @@ const char* asperity_scene_object_name(const asperity_scene* scene, size_t objec
 asperity_status asperity_scene_mesh(const asperity_scene* scene, size_t object, double* vertices_m,
                                     size_t vertex_capacity, size_t* vertex_count, unsigned* triangles,
                                     size_t triangle_capacity, size_t* triangle_count) {
+  if (vertex_count != nullptr) *vertex_count = 0;
+  if (triangle_count != nullptr) *triangle_count = 0;
   return guarded([&] {
     const asperity::SceneObject& of = object_of(scene, object);
     const asperity::MeshFile& mesh = of.mesh;
-    there(vertex_count, "vertex_count") = mesh.vertices.size();
+    size_t& vertices = there(vertex_count, "vertex_count");
     there(triangle_count, "triangle_count") = mesh.triangles.size();
+    vertices = mesh.vertices.size();
     for (std::size_t i = 0; vertices_m != nullptr && i < std::min(vertex_capacity, mesh.vertices.size()); ++i)
       Eigen::Vector3d::Map(vertices_m + 3 * i) = of.unit_m * mesh.vertices[i];
     for (std::size_t i = 0; triangles != nullptr && i < std::min(triangle_capacity, mesh.triangles.size()); ++i) {

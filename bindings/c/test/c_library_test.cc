@@ -1,11 +1,10 @@
 // libasperity_feel.so through its own header, against the C++ renderer that it wraps.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,101 +12,14 @@
 #include <gtest/gtest.h>
 
 #include <asperity_feel.h>
-#include "asperity/base/random.h"
 #include "asperity/render/render_step.h"
-#include "asperity/scene/paint.h"
-#include "asperity/scene/read_scene.h"
 #include "asperity/testkit/count_allocations.h"
-#include "asperity/testkit/shape_meshes.h"
-#include "asperity/testkit/temp_dir.h"
-#include "asperity/texture/texture_file.h"
+#include "c_library_fixture.h"
 
 namespace asperity {
 namespace {
 
-// A plane of 40 × 20 mm with a wave of 2 mm along its middle, as a handle and as what the renderer makes of the same.
-class CLibrary : public ::testing::Test {
- protected:
-  void SetUp() override {
-    Fourier1d wave;
-    wave.length_mm = 2.0;
-    wave.a_m = {50e-6};
-    wave.b_m = {0.0};
-    Texture texture;
-    texture.model = wave;
-    texture_file_ = (folder_.path() / "wave.texture.json").string();
-    write_texture(texture_file_, texture);
-
-    const TriangleMesh mesh = testkit::plane_mesh({0.04, 0.02}, 20, 10);
-    for (const Eigen::Vector3d& v : mesh.vertices_m) vertices_m_.insert(vertices_m_.end(), v.begin(), v.end());
-    for (const Triangle& t : mesh.triangles) triangles_.insert(triangles_.end(), t.begin(), t.end());
-    SceneObject& object = reference_.objects.emplace_back();
-    object.mesh.vertices = mesh.vertices_m;
-    object.mesh.triangles = mesh.triangles;
-    SceneTexture of_object;
-    of_object.texture = read_texture(texture_file_);
-    of_object.file = texture_file_;
-    const std::array<Eigen::Vector3d, 2> through_m{Eigen::Vector3d(2e-3, 10e-3, 0.0),
-                                                   Eigen::Vector3d(38e-3, 10e-3, 0.0)};
-    HapticCoordinatesConfig config;
-    config.half_width_mm = 3.0;
-    paint(object, through_m, of_object, config);
-
-    ASSERT_EQ(make_mesh(&scene_), ASPERITY_OK) << asperity_last_error();
-    const std::array<double, 6> points_m{2e-3, 10e-3, 0.0, 38e-3, 10e-3, 0.0};
-    ASSERT_EQ(asperity_scene_paint(scene_, 0, texture_file_.c_str(), points_m.data(), 2, 3e-3, 1), ASPERITY_OK)
-        << asperity_last_error();
-    ASSERT_EQ(asperity_settings_create(&settings_), ASPERITY_OK);
-    ASSERT_EQ(asperity_settings_set(settings_, "friction", "0.3"), ASPERITY_OK) << asperity_last_error();
-    ASSERT_EQ(asperity_settings_set(settings_, "tip_radius_m", "0.0005"), ASPERITY_OK) << asperity_last_error();
-    ASSERT_EQ(asperity_feel_create(scene_, settings_, &feel_), ASPERITY_OK) << asperity_last_error();
-  }
-
-  void TearDown() override {
-    asperity_feel_free(feel_);
-    asperity_settings_free(settings_);
-    asperity_scene_free(scene_);
-  }
-
-  asperity_status make_mesh(asperity_scene** scene) const {
-    return asperity_scene_from_mesh(vertices_m_.data(), vertices_m_.size() / 3, triangles_.data(),
-                                    triangles_.size() / 3, scene);
-  }
-
-  RenderModel model() const {
-    RenderConfig config;
-    config.friction = 0.3;
-    config.tip_radius_m = 0.0005;
-    return make_render_model(reference_, config);
-  }
-
-  // Onto the plane and along it, with tremor.
-  static std::vector<asperity_motion> stroke(std::size_t count) {
-    Random random(8);
-    std::vector<asperity_motion> out(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      asperity_motion& motion = out[i];
-      asperity_motion_init(&motion, sizeof motion);
-      const double t = static_cast<double>(i) * 1e-3;
-      motion.dt_s = 1e-3;
-      motion.position_m[0] = 3e-3 + 30e-3 * t;
-      motion.position_m[1] = 10e-3 + 1e-4 * std::sin(60.0 * t);
-      motion.position_m[2] = 2e-3 * std::exp(-20.0 * t) - 0.7e-3 + 1e-6 * random.normal();
-      motion.velocity_mps[0] = 30e-3;
-      motion.velocity_mps[2] = -40e-3 * std::exp(-20.0 * t);
-    }
-    return out;
-  }
-
-  testkit::TempDir folder_;
-  std::string texture_file_;
-  std::vector<double> vertices_m_;
-  std::vector<unsigned> triangles_;
-  Scene reference_;
-  asperity_scene* scene_ = nullptr;
-  asperity_settings* settings_ = nullptr;
-  asperity_feel* feel_ = nullptr;
-};
+using CLibrary = testkit::CLibraryTest;
 
 TEST_F(CLibrary, FeelsWhatTheRendererFeels) {
   const std::vector<asperity_motion> motions = stroke(900);
@@ -256,67 +168,6 @@ TEST_F(CLibrary, MeshesAndPosesAreGivenBack) {
   EXPECT_EQ(asperity_scene_pose(flat, 1, position_m.data(), rotation.data()), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(asperity_scene_pose(flat, 0, nullptr, rotation.data()), ASPERITY_BAD_ARGUMENT);
   asperity_scene_free(flat);
-}
-
-TEST_F(CLibrary, WrongArgumentsAreNamedAndChangeNothing) {
-  asperity_scene* scene = scene_;
-  EXPECT_EQ(asperity_scene_read("no/such.scene.json", &scene), ASPERITY_BAD_FILE);
-  EXPECT_EQ(scene, nullptr);
-  EXPECT_NE(std::string(asperity_last_error()).find("no/such.scene.json"), std::string::npos);
-  EXPECT_EQ(asperity_scene_read(nullptr, &scene), ASPERITY_BAD_ARGUMENT);
-  EXPECT_STREQ(asperity_last_error(), "path is NULL");
-  EXPECT_EQ(asperity_scene_read("x", nullptr), ASPERITY_BAD_ARGUMENT);
-  const std::array<unsigned, 3> beyond{0, 1, 3};
-  EXPECT_EQ(asperity_scene_from_mesh(vertices_m_.data(), 3, beyond.data(), 1, &scene), ASPERITY_BAD_ARGUMENT);
-  EXPECT_NE(std::string(asperity_last_error()).find("index 3"), std::string::npos);
-  EXPECT_EQ(asperity_scene_from_mesh(vertices_m_.data(), 3, beyond.data(), 0, &scene), ASPERITY_BAD_ARGUMENT);
-  const std::array<double, 6> points_m{0.0, 0.0, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0};
-  EXPECT_EQ(asperity_scene_paint(scene_, 0, texture_file_.c_str(), points_m.data(), 2, 0.0, 1), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_scene_paint(scene_, 7, texture_file_.c_str(), points_m.data(), 1, 0.0, 1), ASPERITY_BAD_ARGUMENT);
-  EXPECT_STREQ(asperity_last_error(), "object 7: the scene has 1");
-  EXPECT_EQ(asperity_scene_paint(scene_, 0, "nothing.texture.json", vertices_m_.data(), 2, 0.0, 1), ASPERITY_BAD_FILE);
-  EXPECT_EQ(asperity_scene_set_texture(scene_, 77, texture_file_.c_str()), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_scene_set_texture(scene_, 1, "nothing.texture.json"), ASPERITY_BAD_FILE);
-  const std::array<double, 6> together_m{0.01, 0.01, 0.0, 0.01, 0.01, 0.0};
-  EXPECT_EQ(asperity_scene_paint(scene_, 0, texture_file_.c_str(), together_m.data(), 2, 0.0, 1),
-            ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(
-      asperity_scene_from_mesh(vertices_m_.data(), std::numeric_limits<std::size_t>::max(), beyond.data(), 1, &scene),
-      ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_scene_read("\xFF\xFE.scene.json", &scene), ASPERITY_BAD_FILE);
-  EXPECT_EQ(std::string(asperity_last_error()).find('\xFF'), std::string::npos);
-  EXPECT_EQ(asperity_scene_set_stiffness(scene_, -5.0), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_scene_set_friction(scene_, std::nan(""), 1.0), ASPERITY_BAD_ARGUMENT);
-  const std::array<double, 4> none{};
-  EXPECT_EQ(asperity_scene_set_pose(scene_, 0, vertices_m_.data(), none.data()), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_settings_set(settings_, "fiction", "0.3"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_NE(std::string(asperity_last_error()).find("friction"), std::string::npos) << asperity_last_error();
-  EXPECT_EQ(asperity_settings_set(settings_, "render.friction", "0.3"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_NE(std::string(asperity_last_error()).find("'friction'"), std::string::npos) << asperity_last_error();
-  EXPECT_EQ(asperity_settings_set(settings_, "wurst", "0.3"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_NE(std::string(asperity_last_error()).find("asperity_settings_name()"), std::string::npos);
-  EXPECT_EQ(std::string(asperity_last_error()).find("--"), std::string::npos) << asperity_last_error();
-  EXPECT_EQ(asperity_settings_set(settings_, "friction", "-1"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_settings_set(nullptr, "friction", "1"), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_feel_create(nullptr, nullptr, nullptr), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_feel_update(nullptr, scene_, nullptr), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_scene_object_name(scene_, 1), nullptr);
-  EXPECT_STREQ(asperity_scene_object_name(scene_, 0), "");
-  EXPECT_EQ(asperity_scene_object_count(nullptr), 0u);
-  EXPECT_STREQ(asperity_status_text(static_cast<asperity_status>(99)), "unknown status");
-
-  asperity_motion motion = stroke(1).front();
-  asperity_touch touch;
-  asperity_touch_init(&touch, sizeof touch);
-  EXPECT_EQ(asperity_feel_step(feel_, nullptr, &touch), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_feel_step(feel_, &motion, nullptr), ASPERITY_BAD_ARGUMENT);
-  EXPECT_EQ(asperity_feel_step(nullptr, &motion, &touch), ASPERITY_BAD_ARGUMENT);
-  motion.size = 3;
-  EXPECT_EQ(asperity_feel_step(feel_, &motion, &touch), ASPERITY_BAD_ARGUMENT);
-  motion.size = sizeof motion;
-  motion.position_m[1] = std::nan("");
-  EXPECT_EQ(asperity_feel_step(feel_, &motion, &touch), ASPERITY_OK);
-  EXPECT_EQ(Eigen::Vector3d::Map(touch.force_N), Eigen::Vector3d::Zero());
 }
 
 // A program of a later 1.x: longer structures, of which this library knows the beginning.

@@ -62,6 +62,16 @@ Rows::Rows(py::handle given, const char* name) : array_(doubles_of(given, name))
     throw py::value_error(std::string(name) + ": an array of shape (n, 3) is wanted, not " + shape_text(array_));
 }
 
+Rows finite_rows(py::handle given, const char* name) {
+  Rows rows(given, name);
+  const std::span<const Eigen::Vector3d> all = rows.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].allFinite())
+      throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is not finite");
+  }
+  return rows;
+}
+
 Eigen::Vector3d vector_of(py::handle given, const char* name) {
   const py::array_t<double> array = doubles_of(given, name);
   if (array.ndim() != 1 || array.size() != 3) throw py::value_error(std::string(name) + ": three numbers are wanted");

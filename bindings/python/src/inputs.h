@@ -54,6 +54,9 @@ class Rows {
   py::array_t<double> array_;
 };
 
+// (n, 3) points or directions; throws ValueError also for a row that is not finite, which has no answer.
+Rows finite_rows(py::handle given, const char* name);
+
 // Three numbers. Throws TypeError and ValueError.
 Eigen::Vector3d vector_of(py::handle given, const char* name);
 

@@ -167,6 +167,19 @@ def test_nearest_points_and_rays_are_those_of_the_plate():
     assert np.all(np.isinf(t[~inside])) and np.all(hit[~inside] == 0xFFFFFFFF)
 
 
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_points_and_rays_that_are_not_finite_are_named(bad):
+    mesh = asperity.Mesh(*plate())
+    points = np.full((5, 3), 0.01)
+    points[3, 1] = bad
+    with pytest.raises(ValueError, match="points_m: row 3 is not finite"):
+        mesh.closest_points(points)
+    with pytest.raises(ValueError, match="origins_m: row 3 is not finite"):
+        mesh.cast_rays(points, np.ones((5, 3)))
+    with pytest.raises(ValueError, match="directions: row 3 is not finite"):
+        mesh.cast_rays(np.ones((5, 3)), points)
+
+
 def test_steps_are_steps():
     scene = asperity.Scene(*plate())
     one, all_at_once = asperity.Renderer(scene), asperity.Renderer(scene)

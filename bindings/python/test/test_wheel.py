@@ -11,11 +11,12 @@ import zipfile
 import asperity
 
 ROOT = pathlib.Path(__file__).parents[3]
+LICENCES = [ROOT / "LICENSE", ROOT / "packaging/copyright"]
 
 
 def pack(folder):
     package = pathlib.Path(asperity.__file__).parent
-    command = [sys.executable, ROOT / "bindings/python/pack_wheel.py", package, ROOT / "LICENSE", folder]
+    command = [sys.executable, ROOT / "bindings/python/pack_wheel.py", package, *LICENCES, folder]
     return pathlib.Path(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip())
 
 
@@ -45,9 +46,22 @@ def test_the_wheel_is_a_package(tmp_path):
     assert 0.0 < float(where[1]) < 1e-6
 
 
+def test_the_licences_of_what_is_compiled_in_are_in_the_wheel(tmp_path):
+    with zipfile.ZipFile(pack(tmp_path)) as archive:
+        names = {name.split("/")[-1]: name for name in archive.namelist()}
+        assert archive.read(names["LICENSE"]) == (ROOT / "LICENSE").read_bytes()
+        notice = archive.read(names["COPYRIGHT"]).decode()
+    # What bindings/python/CMakeLists.txt and its modules compile in, by the holder's name in each one's own header.
+    for holder in ("Wenzel Jakob", "Gael Guennebaud", "Victor Zverovich", "Niels Lohmann", "Syoyo Fujita"):
+        assert holder in notice
+    # The texts that their licences ask to keep, and where the source of MPL's part is.
+    for text in ("Redistributions in binary form must reproduce", "Permission is hereby granted", "https://www.mozilla.org/MPL/2.0/", "gitlab.com/libeigen"):
+        assert text in notice
+
+
 def test_an_empty_folder_is_refused(tmp_path):
     (tmp_path / "asperity").mkdir()
-    command = [sys.executable, ROOT / "bindings/python/pack_wheel.py", tmp_path / "asperity", ROOT / "LICENSE", tmp_path / "out"]
+    command = [sys.executable, ROOT / "bindings/python/pack_wheel.py", tmp_path / "asperity", *LICENCES, tmp_path / "out"]
     run = subprocess.run(command, stderr=subprocess.PIPE, text=True)
     assert run.returncode == 1 and "asperity_python" in run.stderr
     assert not (tmp_path / "out").exists()

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/length_unit_names.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -46,6 +47,14 @@ double parse_speed_mps(std::string_view text, std::string_view what) {
 }
 double parse_duration_s(std::string_view text, std::string_view what) {
   return parse_quantity(text, what, kDurations, "10s or 250ms");
+}
+
+std::vector<std::string_view> length_unit_names() {
+  std::vector<std::string_view> out;
+  for (const auto& [name, metres] : kLengths) {
+    if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos) out.push_back(name);
+  }
+  return out;
 }
 
 double parse_length_unit_m(std::string_view text, std::string_view what) {

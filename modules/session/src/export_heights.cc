@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"x3p", "sdf", "sdf-binary", "gsf"};
-
 std::string bytes_of(const ArealMap& map, HeightFile format) {
   switch (format) {
     case HeightFile::kX3p:
@@ -68,9 +66,9 @@ ArealMap map_of(const ArealTexture& areal) {
 }  // namespace
 
 std::optional<HeightFile> height_file_of(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<HeightFile>(found - kNames.begin());
+  const auto found = std::find(kHeightFileNames.begin(), kHeightFileNames.end(), name);
+  if (found == kHeightFileNames.end()) return std::nullopt;
+  return static_cast<HeightFile>(found - kHeightFileNames.begin());
 }
 
 bool holds_heights_alone(const fs::path& source) {

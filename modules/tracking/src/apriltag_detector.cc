@@ -102,6 +102,12 @@ class ApriltagDetector : public TagDetector {
 
 }  // namespace
 
+std::vector<std::string_view> apriltag_families() {
+  std::vector<std::string_view> out;
+  for (const Family& family : kFamilies) out.push_back(family.name);
+  return out;
+}
+
 bool is_apriltag_family(std::string_view family) { return find_family(family) != nullptr; }
 
 std::unique_ptr<TagDetector> make_apriltag_detector(const std::string& family, const TagDetectorConfig& config) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -12,8 +13,9 @@ namespace asperity {
 
 // Files of surface instruments.
 enum class HeightFile { kX3p, kSdf, kSdfBinary, kGsf };
+inline constexpr std::array<std::string_view, 4> kHeightFileNames{"x3p", "sdf", "sdf-binary", "gsf"};
 
-// Of the names x3p, sdf, sdf-binary, gsf; nullopt for another.
+// Of the names above; nullopt for another.
 std::optional<HeightFile> height_file_of(std::string_view name);
 
 // A file of heights: neither a scene nor a texture (.json) nor a mesh.

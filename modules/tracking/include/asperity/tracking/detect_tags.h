@@ -49,7 +49,10 @@ class TagDetector {
   virtual std::optional<TagPattern> pattern(int id) const = 0;
 };
 
-// True for AprilTag's families: tag36h11, tag25h9, tag16h5, tagStandard41h12.
+// AprilTag's families: tag36h11, tag25h9, tag16h5, tagStandard41h12.
+std::vector<std::string_view> apriltag_families();
+
+// True for one of these.
 bool is_apriltag_family(std::string_view family);
 
 // True for "aruco:DICT_4X4_50" and the like, and "aruco:FILE.yml" (aruco_dictionary.h).
