@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -96,6 +97,33 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   return out;
 }
 
+namespace {
+
+// "ax=-'Y'[g], ay=…": the columns of a group in the order and with the signs of `axes`, such as "-y,x,z".
+std::string exchanged_columns(const ImportTable& table, ColumnGroup group, std::string_view axes) {
+  std::array<const MappedColumn*, 3> columns{};
+  for (const MappedColumn& column : table.map) {
+    if (group_of(column.meaning) == group) columns[static_cast<std::size_t>(column.meaning.back() - 'x') % 3] = &column;
+  }
+  std::string out;
+  bool negative = false;
+  std::size_t at = 0;
+  for (const char c : axes) {
+    negative = negative || c == '-';
+    if (c < 'x' || c > 'z') continue;
+    const MappedColumn* column = columns[static_cast<std::size_t>(c - 'x')];
+    if (column == nullptr || columns[at] == nullptr) return {};
+    const std::string sign = negative != column->negative ? "-" : "";
+    out += fmt::format("{}{}={}#{}[{}]", out.empty() ? "" : ", ", columns[at]->meaning, sign, column->column + 1,
+                       column->unit);
+    negative = false;
+    ++at;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
   const ImportTable* table = doubt.role == FileRole::kPose ? &*tables.pose : &*tables.imu;
   if (doubt.group == ColumnGroup::kRate && tables.gyro) table = &*tables.gyro;
@@ -116,6 +144,7 @@ std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
   out += doubt.message;
   if (!doubt.unit.empty()) out += "; state " + stated;
   if (!doubt.setting.empty()) out += "; state " + doubt.setting;
+  if (!doubt.axes.empty()) out += "; state " + exchanged_columns(*table, doubt.group, doubt.axes);
   return out;
 }
 
