@@ -126,14 +126,14 @@ void explain_axes(const ImportStreams& streams, const WayChanges& changes, Strea
   constexpr double kClearlyBetter = 0.02;
   const bool is_sensor = sensor.cosine + kClearlyBetter > world.cosine;
   const std::string name = (is_sensor ? sensor : world).choice.name();
-  ImportDoubt doubt{is_sensor ? ColumnGroup::kAcceleration : ColumnGroup::kPosition,
-                    is_sensor ? FileRole::kImu : FileRole::kPose,
-                    seen + fmt::format("they agree (cosine {:.2f}) if x, y, z are the {}'s {}",
-                                       (is_sensor ? sensor : world).cosine, is_sensor ? "accelerometer" : "positions",
-                                       name),
-                    {},
-                    {},
-                    name};
+  ImportDoubt doubt{
+      is_sensor ? ColumnGroup::kAcceleration : ColumnGroup::kPosition,
+      is_sensor ? FileRole::kImu : FileRole::kPose,
+      seen + fmt::format("they agree (cosine {:.2f}) if x, y, z are {} of the {}", (is_sensor ? sensor : world).cosine,
+                         name, is_sensor ? "accelerometer" : "positions"),
+      {},
+      {},
+      name};
   out.doubts.push_back(std::move(doubt));
 }
 

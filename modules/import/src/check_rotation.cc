@@ -137,8 +137,8 @@ ImportDoubt rotated_sensor(const Eigen::Matrix3d& R, const StreamUnits& units) {
           "--imu-axes " + axes_text(R * units.sensor_axes)};
 }
 
-// A sensor whose axes are exchanged by R, or mirrored by −R: mirrored rates change their sign, so that both rotate alike.
-// The accelerometer shows which it is.
+// A sensor whose axes are exchanged by R, or mirrored by −R: mirrored rates change their sign, so that both rotate
+// alike. The accelerometer shows which it is.
 ImportDoubt exchanged_sensor(const ImportStreams& streams, const StreamUnits& units, const Eigen::Matrix3d& R) {
   const bool is_mirrored = length_cosine(streams, -R) > kSameMotion;
   const Eigen::Matrix3d axes = is_mirrored ? -R : R;
@@ -165,14 +165,15 @@ ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& 
   if (agreement.cosine(exchanged.R) > kOtherFits) return exchanged_sensor(streams, units, exchanged.R);
   const AxesChoice mirrored = best_axes(agreement, -1.0);
   if (agreement.cosine(mirrored.R) > kOtherFits) {
-    return {ColumnGroup::kRate,
-            FileRole::kImu,
-            "the gyroscope shows the mirror image of the poses' rotation: two of its columns are exchanged, or a sign is "
-            "wrong; they agree if x, y, z are its " +
-                mirrored.name(),
-            {},
-            {},
-            mirrored.name()};
+    return {
+        ColumnGroup::kRate,
+        FileRole::kImu,
+        "the gyroscope shows the mirror image of the poses' rotation: two of its columns are exchanged, or a sign is "
+        "wrong; they agree if x, y, z are its " +
+            mirrored.name(),
+        {},
+        {},
+        mirrored.name()};
   }
   const Eigen::Matrix3d R = fitted_rotation(agreement);
   if (agreement.cosine(R) > kOtherFits) return rotated_sensor(R, units);

@@ -109,9 +109,10 @@ std::vector<std::size_t> ordered_rows(const ImportTable& in, const std::vector<s
     if (!(*t_ns[rows[i]] < *t_ns[rows[i - 1]])) continue;
     if (backwards++ == 0) first = in.table.row_line[rows[i]];
   }
-  note_rows(in, "time_backwards", backwards,
-            fmt::format("with a time before that of the row above, first in line {}; the rows were put in order", first),
-            problems);
+  note_rows(
+      in, "time_backwards", backwards,
+      fmt::format("with a time before that of the row above, first in line {}; the rows were put in order", first),
+      problems);
   if (backwards > 0) std::stable_sort(rows.begin(), rows.end(), earlier);
   const std::size_t all = rows.size();
   rows.erase(std::unique(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return *t_ns[a] == *t_ns[b]; }),

@@ -15,11 +15,12 @@ namespace asperity {
 namespace {
 
 ImportTable read_import_table(const std::filesystem::path& path, FileRole role, const MappingConfig& config,
-                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits) {
+                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits,
+                              double same_file_Hz = 0.0) {
   std::string text = read_file(path, limits.csv_bytes);
   std::string section = mapping_of(config, role).section;
   if (section.empty()) section = preset_section(text, role);
-  return map_table(read_delimited(std::move(text), path.string(), section), role, config, elsewhere);
+  return map_table(read_delimited(std::move(text), path.string(), section), role, config, elsewhere, same_file_Hz);
 }
 
 bool states_force(const MappingConfig& config) {
@@ -82,14 +83,16 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   std::vector<ColumnGroup> times, sensor;
   if (!one_file) times = sensor = {ColumnGroup::kTime};
   if (!files.gyro.empty()) sensor.push_back(ColumnGroup::kRate);
+  // A rate that is stated for one of the streams of a file is that of its rows.
+  const double sensor_Hz = config.imu.rate_Hz > 0.0 ? config.imu.rate_Hz : one_file ? config.pose.rate_Hz : 0.0;
   ImportTables out;
-  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits);
-  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits);
+  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits, one_file ? sensor_Hz : 0.0);
+  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits, sensor_Hz);
   if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits);
   if (!files.force.empty()) {
     out.force = read_import_table(files.force, FileRole::kForce, config, times, limits);
   } else if (states_force(config) || one_file) {
-    out.force = read_import_table(imu, FileRole::kForce, config, times, limits);
+    out.force = read_import_table(imu, FileRole::kForce, config, times, limits, sensor_Hz);
     if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
   }
   if (!files.object.empty()) out.object = read_import_table(files.object, FileRole::kPose, config, times, limits);

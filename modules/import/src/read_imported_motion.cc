@@ -259,6 +259,8 @@ void compare_with_stated(const MappingConfig& config, std::vector<ImportDoubt>& 
       doubt.setting = "no --invert-rotation";
     } else if (doubt.setting.starts_with("--imu-axes") && config.left_handed) {
       doubt.setting += ", or no --left-handed";
+    } else if (doubt.group == ColumnGroup::kRate && !doubt.axes.empty() && !config.left_handed) {
+      doubt.message += "; where the poses' world is left-handed, state --left-handed first";
     }
   }
 }

@@ -92,9 +92,10 @@ std::vector<double> units_of(const TableHead& head, const std::string& name, con
                             printable(config.units), head.width));
   }
   if (head.width == 1) return {metres_of(config.unit)};
-  throw Error(fmt::format("{}:{}: no header line states the units of its {} columns, as \"x [mm];z [µm]\"; --set "
-                          "input.units={} states them",
-                          name, head.first_line, head.width, head.width == 2 ? "mm,um" : "mm,mm,um"));
+  throw Error(
+      fmt::format("{}:{}: no header line states the units of its {} columns, as \"x [mm];z [µm]\"; --set "
+                  "input.units={} states them",
+                  name, head.first_line, head.width, head.width == 2 ? "mm,um" : "mm,mm,um"));
 }
 
 struct TableRows {
@@ -111,8 +112,8 @@ TableRows rows_of(std::string_view text, const std::string& name, const TableHea
     auto row = number_row(lines.line, head.separator);
     if (row && row->size() + 1 == head.width) row->push_back(kNan);  // "0.5;": a point without its height
     if (!row || row->size() != head.width) {
-      throw Error(fmt::format("{}:{}: '{}' is not a row of {} numbers", name, lines.number, printable(lines.line),
-                              head.width));
+      throw Error(
+          fmt::format("{}:{}: '{}' is not a row of {} numbers", name, lines.number, printable(lines.line), head.width));
     }
     std::array<double, 3> point{};
     for (std::size_t k = 0; k < head.width; ++k) {
@@ -203,12 +204,13 @@ Heights parse_stylus_text(std::string_view text, const std::string& name, const 
   const TableRows rows = rows_of(text, name, head, units_of(head, name, config));
   if (rows.points_m.size() < 2) throw Error(name + ": fewer than two heights");
   if (head.width > 1 && !text.ends_with('\n')) {
-    throw Error(fmt::format("{}:{}: the file does not end in a newline: its last row may be cut off", name,
-                            rows.line.back()));
+    throw Error(
+        fmt::format("{}:{}: the file does not end in a newline: its last row may be cut off", name, rows.line.back()));
   }
   if (head.width == 3) {
     if (auto map = arrange_on_grid(rows.points_m)) return std::move(*map);
-    throw Error(fmt::format("{}: its {} points are not those of an even grid, each once, or its end was cut off", name, rows.points_m.size()));
+    throw Error(fmt::format("{}: its {} points are not those of an even grid, each once, or its end was cut off", name,
+                            rows.points_m.size()));
   }
   if (head.width == 2) return profile_of(rows, name);
   if (!(config.spacing_m > 0.0)) throw Error(name + ": the spacing of its heights must be given");

@@ -17,8 +17,8 @@ bool is_decimal_comma_column(std::string_view text);
 // Heights from such a text: any header lines; then rows of z, of x and z, or of x, y and z. The last cell may be
 // missing: empty or a word for it (text_cells.h). Decimal commas and points both count; commas part the cells where a
 // header line has units between them. The units are those of the last header line that has one for each column (as
-// "z [µm]", "mm;µm", "x_mm"), else `config.units`, of one column `config.unit`. Profiles: x rises in steps that are even
-// to a hundredth; steps without a row are missing heights. Maps: arrange_on_grid(). One column has the spacing
+// "z [µm]", "mm;µm", "x_mm"), else `config.units`, of one column `config.unit`. Profiles: x rises in steps that are
+// even to a hundredth; steps without a row are missing heights. Maps: arrange_on_grid(). One column has the spacing
 // `config.spacing_m`. Throws Error naming file, line and value.
 Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config);
 

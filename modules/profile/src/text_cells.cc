@@ -14,9 +14,8 @@ namespace {
 constexpr std::string_view kBlanks = " \t";
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 // Metres of the unit that a header's cell states: the last word of it, without brackets.
@@ -122,7 +121,8 @@ std::optional<std::vector<double>> header_units_m(std::string_view line, std::si
   if (line.find_first_of(";,") != std::string_view::npos && width > 1) return std::nullopt;
   // "x [mm]  z [µm]": names and units are words. In "length 4.8 mm" the unit is the number's.
   const auto words = words_of(line);
-  const bool has_number = std::any_of(words.begin(), words.end(), [](auto word) { return cell_number(word).has_value(); });
+  const bool has_number =
+      std::any_of(words.begin(), words.end(), [](auto word) { return cell_number(word).has_value(); });
   std::vector<double> out;
   for (const std::string_view word : words) {
     const bool in_brackets = word.ends_with(']') || word.ends_with(')');

@@ -165,8 +165,8 @@ SurfaceFile parse_text(std::string_view bytes, const std::string& name) {
   if (next != std::string_view::npos && rest[next] != '*') {
     line += static_cast<std::size_t>(std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
     const std::string_view word = rest.substr(next, rest.find_first_of(" \t\r\n,;", next) - next);
-    throw Error(fmt::format("{}:{}: '{}' behind the {} heights of its {} x {} points", name, line, printable(word), count,
-                            header.columns, header.rows));
+    throw Error(fmt::format("{}:{}: '{}' behind the {} heights of its {} x {} points", name, line, printable(word),
+                            count, header.columns, header.rows));
   }
   return out;
 }

@@ -54,8 +54,8 @@ using Heights = std::variant<HeightProfile, ArealMap>;
 //                              separated by semicolons, tabs, blanks or commas, with decimal points or commas; units by
 //                              a word of the last header lines, as [µm] or (mm), else by `units`
 // Text is UTF-8, UTF-16 with a byte order mark, or Latin-1. Throws Error naming file, line and value for anything else,
-// infinite numbers, uneven positions, a spacing that is missing or contradicts s_m, 16 or more heights that span more than
-// a hundred times the length and width (another unit is meant), or a file of more than 512 MiB.
+// infinite numbers, uneven positions, a spacing that is missing or contradicts s_m, 16 or more heights that span more
+// than a hundred times the length and width (another unit is meant), or a file of more than 512 MiB.
 Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {});
 
 // The same from text in memory; `name` is what messages call it.
