@@ -61,7 +61,7 @@ TEST(Roughness, ASettingClassFiltersAndSaysSo) {
                                  "roughness.sections=10; "));
   EXPECT_THAT(
       run({"roughness", file, "--spacing", "0.5um", "--lambda-c", "0.8mm", "--set", "roughness.sections=10"}).out,
-      Not(HasSubstr("as in ISO 21920")));
+      ::testing::Not(HasSubstr("as in ISO 21920")));
   const Outcome outcome = run({"roughness", file, "--spacing", "0.5um", "--class", "auto", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
