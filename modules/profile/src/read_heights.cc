@@ -159,6 +159,16 @@ ArealMap areal_map_of(std::string_view text, const std::string& name, const std:
   }
 }
 
+[[noreturn]] void refuse_image(const std::string& name) {
+  throw Error(name +
+              ": a picture (PNG, JPEG) states neither the spacing nor the range of its heights; asperity feel "
+              "--height-maps takes it, and a TIFF of heights is read here");
+}
+
+bool is_picture(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG\r\n") || bytes.starts_with("\xff\xd8\xff");
+}
+
 HeightProfile profile_of_map(ArealMap map, const std::string& name) {
   HeightProfile profile;
   profile.height_m = std::move(map.height_m);
@@ -207,6 +217,8 @@ Heights parse_heights(std::string_view text, const std::string& name, const Read
     out = std::move(file->map);
   } else if (is_tiff(text)) {
     out = heights_of_tiff(text, name, config);
+  } else if (is_picture(text)) {
+    refuse_image(name);
   } else {
     out = parse_text_heights(decode_text(std::string(text), name).text, name, config);
   }

@@ -202,6 +202,11 @@ TEST(ReadHeights, TextInUtf16) {
   EXPECT_DOUBLE_EQ(profile_of(utf16).height_m[1], 2e-6);
 }
 
+TEST(ReadHeights, PicturesAreSentToTheirOption) {
+  expect_error(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "feel --height-maps takes it");
+  expect_error("\xff\xd8\xff\xe0", "states neither the spacing nor the range");
+}
+
 TEST(ReadHeights, RowsThatWereLeftOutAreMissing) {
   const HeightProfile profile = profile_of("x [mm];z [um]\n0;1\n0,5;2\n1,5;4\n2;5\n");
   ASSERT_EQ(profile.height_m.size(), 5u);
