@@ -257,6 +257,10 @@ class ImportCommand : public Command {
     for (const ImportDoubt& doubt : motion.checks.doubts) {
       text += (text.empty() ? "" : "\n  ") + doubt_text(doubt, tables);
     }
+    // Rows that were put in order may be the cause.
+    for (const Problem& problem : motion.streams.problems) {
+      if (!text.empty() && problem.kind == "time_backwards") text += "\n  " + problem.message;
+    }
     if (!text.empty()) throw Error(text + "\n  (--dry-run prints the columns; --unchecked imports in spite of this)");
   }
 

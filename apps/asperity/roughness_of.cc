@@ -111,6 +111,20 @@ class Measurement {
     return with_setting_class(chosen, profile.height_m.size(), profile.spacing_m, settings_.profile);
   }
 
+  // The standards' sections are as long as λc. "" where these are within a half of it.
+  static std::string section_note(const RoughnessConfig& config, double section_mm) {
+    constexpr double kFar = 1.5;
+    const double ratio = section_mm / config.lambda_c_mm;
+    if (ratio < kFar && ratio > 1.0 / kFar) return {};
+    const double whole = std::clamp(std::floor(config.sections * ratio + 1e-6), 1.0, 1000.0);
+    if (whole == config.sections) return {};
+    return fmt::format(
+        "            sections as long as λc, as in ISO 21920: --set roughness.sections={:.0f}; Rz, Rp, Rv and RSm "
+        "depend "
+        "on it\n",
+        whole);
+  }
+
   // What was filtered, in words: a value without it means little.
   static std::string filter_line(const HeightProfile& profile, const RoughnessConfig& config, const std::string& name) {
     const double cut_mm = config.ends == ProfileEnds::kCut ? config.lambda_c_mm : 0.0;
@@ -125,7 +139,7 @@ class Measurement {
     if (config.lambda_c_mm > 0.0 && config.lambda_f_mm > 0.0) out += fmt::format(", λf {:g} mm", config.lambda_f_mm);
     if (cut_mm > 0.0) out += fmt::format(", {:g} mm left out at each end", 0.5 * cut_mm);
     out += fmt::format("; {} sections of {:.4g} mm\n", config.sections, section_mm);
-    if (config.lambda_c_mm > 0.0) return out;
+    if (config.lambda_c_mm > 0.0) return out + section_note(config, section_mm);
     return out +
            (profile.column == "texture_m"
                 ? "            the column texture_m is already high-passed\n"

@@ -55,6 +55,13 @@ TEST(Roughness, ASettingClassFiltersAndSaysSo) {
   const Outcome unfiltered = run({"roughness", file, "--spacing", "0.5um"});
   EXPECT_THAT(unfiltered.out, HasSubstr("filters     no λs, no λc; 5 sections of 1.6 mm\n"));
   EXPECT_THAT(unfiltered.out, HasSubstr("waviness included"));
+  // 8 mm are ten sections of λc = 0.8 mm; five are the setting.
+  const Outcome own = run({"roughness", file, "--spacing", "0.5um", "--lambda-c", "0.8mm"});
+  EXPECT_THAT(own.out, HasSubstr("5 sections of 1.6 mm\n            sections as long as λc, as in ISO 21920: --set "
+                                 "roughness.sections=10; "));
+  EXPECT_THAT(
+      run({"roughness", file, "--spacing", "0.5um", "--lambda-c", "0.8mm", "--set", "roughness.sections=10"}).out,
+      ::testing::Not(HasSubstr("as in ISO 21920")));
   const Outcome outcome = run({"roughness", file, "--spacing", "0.5um", "--class", "auto", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);

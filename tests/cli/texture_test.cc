@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,6 +48,20 @@ class TextureCommands : public testing::Test {
 
   testkit::TempDir dir_;
 };
+
+// A map as an instrument's program writes it: header lines in Latin-1, decimal commas, points without a height left
+// out.
+TEST_F(TextureCommands, AnArealModelOfAnInstrumentsTable) {
+  std::string text = "Ger\xe4t Typ 1\nx [mm];y [mm];z [\xb5m]\n";
+  for (int i = 0; i < 24 * 20; ++i) {
+    const double z = 2 * std::cos(0.5 * (i % 24)) * std::cos(0.4 * (i / 24));
+    if (i % 37 != 5) text += fmt::format("{};{};{:.4f}\n", 0.1 * (i % 24), 0.1 * (i / 24), z);
+  }
+  std::replace(text.begin(), text.end(), '.', ',');
+  write_text(path("map.csv"), text);
+  const Json fitted = done({"texture", "fit", path("map.csv"), "--model", "areal", "-o", path("x.texture.json")});
+  EXPECT_EQ(fitted["model"], "areal") << fitted;
+}
 
 TEST_F(TextureCommands, EveryModelOfHeightsIsFittedAndDescribed) {
   write_text(path("p.csv"), wave_profile(20));

@@ -4,11 +4,13 @@ One channel of one file as JSON on standard output: size, spacing, missing point
 after Gwyddion's plane was removed. Gwyddion runs in a process of its own, without a display.
 
     gwyddion_reader.py FILE
+    gwyddion_reader.py --time FILE     processor seconds of reading, of these statistics, of the autocorrelation, of a Gaussian
 """
 import ctypes
 import json
 import os
 import sys
+import time
 
 # Icons need a display, which is not there.
 os.environ["GWYDDION_DATADIR"] = "/nonexistent"
@@ -18,7 +20,7 @@ def library(name):
     return ctypes.CDLL(name, mode=ctypes.RTLD_GLOBAL)
 
 
-def main(path):
+def main(path, is_timed=False):
     core, process, draw = (library(f"libgwy{n}2.so.0") for n in ("ddion", "process", "draw"))
     library("libgwydgets2.so.0")
     module, app = library("libgwymodule2.so.0"), library("libgwyapp2.so.0")
@@ -64,16 +66,17 @@ def main(path):
     height_m = call("gwy_data_field_get_yreal", ctypes.c_double, field)
     count = columns * rows
 
+    seconds = {"read": time.process_time()}
+
     def values(of):
         data = call("gwy_data_field_get_data_const", ctypes.c_void_p, of)
         return list((ctypes.c_double * count).from_address(data))
 
-    heights = values(field)
-    missing = [m > 0 for m in values(mask)] if mask else [False] * count
-    out = {
-        "columns": columns, "rows": rows, "x_spacing_m": width_m / columns, "y_spacing_m": height_m / rows,
-        "missing": sum(missing), "height_m": [None if gone else z for z, gone in zip(heights, missing)],
-    }
+    out = {"columns": columns, "rows": rows, "x_spacing_m": width_m / columns, "y_spacing_m": height_m / rows}
+    if not is_timed:
+        missing = [m > 0 for m in values(mask)] if mask else [False] * count
+        out["missing"] = sum(missing)
+        out["height_m"] = [None if gone else z for z, gone in zip(values(field), missing)]
     if rows > 1 and not mask:
         plane = [ctypes.c_double() for _ in range(3)]
         call("gwy_data_field_fit_plane", None, field, *[ctypes.byref(x) for x in plane])
@@ -90,8 +93,17 @@ def main(path):
             "Sdq": call("gwy_data_field_get_surface_slope", ctypes.c_double, field),
             "Sdr": area / (width_m * height_m) - 1.0,
         }
+    if is_timed:
+        seconds["statistics"] = time.process_time() - seconds["read"]
+        for name, work in (("autocorrelation", lambda: call("gwy_data_field_2dacf", None, field,
+                                                            call("gwy_data_field_new_alike", ctypes.c_void_p, field, 0))),
+                           ("gaussian", lambda: call("gwy_data_field_filter_gaussian", None, field, 5.0))):
+            begin = time.process_time()
+            work()
+            seconds[name] = time.process_time() - begin
+        out["processor_s"] = seconds
     json.dump(out, sys.stdout)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[-1], sys.argv[1] == "--time")

@@ -13,11 +13,11 @@
 namespace asperity {
 namespace {
 
-constexpr std::size_t kSide = 200;  // 79,202 triangles: of leaves and lines there are more than an observer waits for
+constexpr std::uint32_t kSide = 200;  // 79,202 triangles: of leaves and lines there are more than an observer waits for
 
 TriangleMesh waves() {
   TriangleMesh out;
-  for (std::size_t i = 0; i < kSide * kSide; ++i) {
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
     const auto x = static_cast<double>(i % kSide), y = static_cast<double>(i / kSide);
     out.vertices_m.emplace_back(x, y, std::sin(x) * std::cos(y));
   }

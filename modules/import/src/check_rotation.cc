@@ -9,6 +9,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include "asperity/base/error.h"
+#include "axes_choice.h"
+#include "check_lengths.h"
 #include "pair_rates.h"
 
 namespace asperity {
@@ -84,38 +86,6 @@ Agreement agreement_of(const RatePairs& pairs) {
   return out;
 }
 
-struct AxesChoice {
-  std::array<int, 3> axis;
-  std::array<int, 3> sign;
-  Eigen::Matrix3d R;
-
-  std::string name() const {
-    std::string out;
-    for (std::size_t i = 0; i < 3; ++i) {
-      out += std::string(i == 0 ? "" : ",") + (sign[i] < 0 ? "-" : "") + "xyz"[axis[i]];
-    }
-    return out;
-  }
-};
-
-// The 24 rotations that exchange axes, or their 24 mirror images.
-std::vector<AxesChoice> all_axes(double determinant) {
-  std::vector<AxesChoice> out;
-  std::array<int, 3> axis{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      AxesChoice choice{axis, {}, Eigen::Matrix3d::Zero()};
-      for (int i = 0; i < 3; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        choice.sign[at] = (signs >> i & 1) != 0 ? -1 : 1;
-        choice.R(i, axis[at]) = choice.sign[at];
-      }
-      if (choice.R.determinant() * determinant > 0.0) out.push_back(choice);
-    }
-  } while (std::next_permutation(axis.begin(), axis.end()));
-  return out;
-}
-
 AxesChoice best_axes(const Agreement& agreement, double determinant) {
   const auto all = all_axes(determinant);
   return *std::max_element(all.begin(), all.end(), [&](const AxesChoice& a, const AxesChoice& b) {
@@ -158,17 +128,6 @@ const std::array<OtherRotation, 3>& other_rotations() {
   return kOthers;
 }
 
-// "y,-x,z" where the matrix exchanges axes, else a quaternion.
-std::string axes_text(const Eigen::Matrix3d& R) {
-  for (const double determinant : {1.0, -1.0}) {
-    for (const AxesChoice& choice : all_axes(determinant)) {
-      if ((choice.R - R).cwiseAbs().maxCoeff() < 1e-6) return choice.name();
-    }
-  }
-  const Eigen::Quaterniond q(R);
-  return fmt::format("{:.5f},{:.5f},{:.5f},{:.5f}", q.w(), q.x(), q.y(), q.z());
-}
-
 ImportDoubt rotated_sensor(const Eigen::Matrix3d& R, const StreamUnits& units) {
   return {ColumnGroup::kRate,
           FileRole::kImu,
@@ -176,6 +135,20 @@ ImportDoubt rotated_sensor(const Eigen::Matrix3d& R, const StreamUnits& units) {
                       Eigen::AngleAxisd(R).angle() * 57.29577951308232),
           {},
           "--imu-axes " + axes_text(R * units.sensor_axes)};
+}
+
+// A sensor whose axes are exchanged by R, or mirrored by −R: mirrored rates change their sign, so that both rotate
+// alike. The accelerometer shows which it is.
+ImportDoubt exchanged_sensor(const ImportStreams& streams, const StreamUnits& units, const Eigen::Matrix3d& R) {
+  const bool is_mirrored = length_cosine(streams, -R) > kSameMotion;
+  const Eigen::Matrix3d axes = is_mirrored ? -R : R;
+  return {ColumnGroup::kRate,
+          FileRole::kImu,
+          "the gyroscope's axes are not the body's: the body's x, y, z look like its " + axes_text(R) +
+              (is_mirrored ? ", and like the accelerometer's " + axes_text(axes) : std::string()),
+          {},
+          "--imu-axes " + axes_text(axes * units.sensor_axes),
+          {}};
 }
 
 ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& units, const Agreement& agreement) {
@@ -188,22 +161,19 @@ ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& 
             {},
             other.setting};
   }
-  const AxesChoice mirrored = best_axes(agreement, -1.0);
   const AxesChoice exchanged = best_axes(agreement, 1.0);
-  if (agreement.cosine(exchanged.R) > kOtherFits) {
+  if (agreement.cosine(exchanged.R) > kOtherFits) return exchanged_sensor(streams, units, exchanged.R);
+  const AxesChoice mirrored = best_axes(agreement, -1.0);
+  if (agreement.cosine(mirrored.R) > kOtherFits) {
     return {
         ColumnGroup::kRate,
         FileRole::kImu,
-        fmt::format("the gyroscope's axes are not the body's: the body's x, y, z look like its {}", exchanged.name()),
+        "the gyroscope shows the mirror image of the poses' rotation: two of its columns are exchanged, or a sign is "
+        "wrong; they agree if x, y, z are its " +
+            mirrored.name(),
         {},
-        "--imu-axes " + axes_text(exchanged.R * units.sensor_axes)};
-  }
-  if (agreement.cosine(mirrored.R) > kOtherFits) {
-    return {ColumnGroup::kRotation,
-            FileRole::kPose,
-            "the poses and the gyroscope show rotations that are mirror images: one of them has left-handed axes",
-            {},
-            "--left-handed"};
+        {},
+        mirrored.name()};
   }
   const Eigen::Matrix3d R = fitted_rotation(agreement);
   if (agreement.cosine(R) > kOtherFits) return rotated_sensor(R, units);

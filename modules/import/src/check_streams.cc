@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 #include "asperity/base/units.h"
+#include "check_lengths.h"
 #include "check_rotation.h"
-#include "pose_at.h"
-#include "running_integral.h"
 
 namespace asperity {
 
@@ -132,55 +131,6 @@ void check_speed(const ImportStreams& streams, const StreamUnits& units, StreamC
                         {}});
 }
 
-// Regression of second differences of the positions on the twice integrated acceleration. False: not determined.
-bool check_scale(const ImportStreams& streams, const StreamUnits& units, StreamChecks& out) {
-  const auto up = mean_force_in_world(streams);
-  if (!up) return false;
-  std::vector<std::int64_t> t_ns;
-  std::vector<Eigen::Vector3d> acceleration;
-  PoseAt pose_at(streams.pose);
-  for (std::size_t i = 0; i < streams.specific_force.size(); ++i) {
-    const auto pose = pose_at.interpolate(streams.specific_force.t_ns[i]);
-    if (!pose) continue;
-    t_ns.push_back(streams.specific_force.t_ns[i]);
-    acceleration.push_back(pose->rotation * streams.specific_force.value[i] - *up);
-  }
-  const RunningIntegral velocity(t_ns, acceleration);
-  std::vector<Eigen::Vector3d> velocities;
-  for (const std::int64_t t : t_ns) velocities.push_back(*velocity.to(t));
-  const RunningIntegral way(t_ns, velocities);
-  constexpr std::int64_t kHalf_ns = 100'000'000;
-  double by_both = 0.0, by_force = 0.0, by_pose = 0.0;
-  std::size_t count = 0;
-  PoseAt before(streams.pose), at(streams.pose), after(streams.pose);
-  for (std::int64_t t = t_ns.front() + kHalf_ns; t + kHalf_ns <= t_ns.back(); t += kHalf_ns) {
-    const auto left = way.between(t - kHalf_ns, t), right = way.between(t, t + kHalf_ns);
-    const auto a = before.interpolate(t - kHalf_ns), b = at.interpolate(t), c = after.interpolate(t + kHalf_ns);
-    if (!left || !right || !a || !b || !c) continue;
-    const Eigen::Vector3d force = *right - *left;
-    const Eigen::Vector3d pose = (c->translation_m - b->translation_m) - (b->translation_m - a->translation_m);
-    by_both += force.dot(pose);
-    by_force += force.squaredNorm();
-    by_pose += pose.squaredNorm();
-    ++count;
-  }
-  constexpr std::size_t kLeast = 20;
-  constexpr double kLeast_mps2 = 0.3, kRelated = 0.7, kTolerance = 2.0;
-  const double half_s = static_cast<double>(kHalf_ns) * 1e-9;
-  if (count < kLeast || std::sqrt(by_force / static_cast<double>(count)) < kLeast_mps2 * half_s * half_s) return false;
-  if (by_both < kRelated * std::sqrt(by_force * by_pose)) return false;
-  out.scale = by_both / by_force;
-  if (out.scale < kTolerance && out.scale > 1.0 / kTolerance) return true;
-  const std::string unit = unit_for_ratio(units.position, Quantity::kLength, out.scale, 1.5);
-  out.doubts.push_back({ColumnGroup::kPosition,
-                        FileRole::kPose,
-                        fmt::format("it moves {:.4g} times as far as the accelerometer shows{}", out.scale,
-                                    unit.empty() ? std::string() : ": this looks like " + unit),
-                        unit,
-                        {}});
-  return true;
-}
-
 }  // namespace
 
 StreamChecks check_times_only(const ImportStreams& streams, const StreamUnits& units) {
@@ -197,7 +147,7 @@ StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& unit
   check_gravity(streams, units, out);
   check_rotation(streams, units, out);
   // Positions are compared with an accelerometer whose unit and axes fit.
-  if (!out.doubts.empty() || !check_scale(streams, units, out)) {
+  if (!out.doubts.empty() || !check_lengths(streams, units, out)) {
     out.notes.push_back("positions: their unit is checked by the speed alone");
     check_speed(streams, units, out);
   }

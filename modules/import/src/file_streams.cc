@@ -45,7 +45,11 @@ std::vector<double> si_values(const ImportTable& in, const std::string& meaning)
   const bool divide = unit.factor < 1.0 && std::abs(inverse * unit.factor - 1.0) < 1e-15;
   const double sign = mapped.negative ? -1.0 : 1.0;
   std::vector<double> out = column.values;
-  for (double& value : out) value = sign * (divide ? value / inverse : value * unit.factor);
+  for (std::size_t row = 0; row < out.size(); ++row) {
+    out[row] = sign * (divide ? out[row] / inverse : out[row] * unit.factor);
+    constexpr double kMost = 1e9;  // metres, radians, m/s², N: what no sensor measures
+    if (std::abs(out[row]) > kMost) fail_at(in.table, row, mapped.column, "is too large");
+  }
   return out;
 }
 
@@ -100,9 +104,15 @@ std::vector<std::size_t> ordered_rows(const ImportTable& in, const std::vector<s
   }
   note_rows(in, "missing_values", t_ns.size() - rows.size(), "without all values were left out", problems);
   const auto earlier = [&](std::size_t a, std::size_t b) { return *t_ns[a] < *t_ns[b]; };
-  std::size_t backwards = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i) backwards += *t_ns[rows[i]] < *t_ns[rows[i - 1]] ? 1 : 0;
-  note_rows(in, "time_backwards", backwards, "before the row above; they were put in order", problems);
+  std::size_t backwards = 0, first = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (!(*t_ns[rows[i]] < *t_ns[rows[i - 1]])) continue;
+    if (backwards++ == 0) first = in.table.row_line[rows[i]];
+  }
+  note_rows(
+      in, "time_backwards", backwards,
+      fmt::format("with a time before that of the row above, first in line {}; the rows were put in order", first),
+      problems);
   if (backwards > 0) std::stable_sort(rows.begin(), rows.end(), earlier);
   const std::size_t all = rows.size();
   rows.erase(std::unique(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return *t_ns[a] == *t_ns[b]; }),

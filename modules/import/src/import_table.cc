@@ -111,7 +111,7 @@ std::string role_name(FileRole role) {
 }
 
 ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config,
-                      const std::vector<ColumnGroup>& elsewhere) {
+                      const std::vector<ColumnGroup>& elsewhere, double same_file_Hz) {
   ImportTable out;
   const FileMapping& file = mapping_of(config, role);
   out.role = role;
@@ -124,16 +124,22 @@ ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& 
   // A rate is stated for a file without times: a column that looks like one is none.
   const ColumnMap before = out.map;
   guess_columns(table, role, name, file.body, out.map);
-  if (file.rate_Hz > 0.0 && !has_group(before, ColumnGroup::kTime)) {
+  const double stated_Hz = file.rate_Hz > 0.0 || out.preset.rate_Hz > 0.0 ? file.rate_Hz : same_file_Hz;
+  if (stated_Hz > 0.0 && !has_group(before, ColumnGroup::kTime)) {
     std::erase_if(out.map, [](const MappedColumn& column) { return group_of(column.meaning) == ColumnGroup::kTime; });
   }
   use_preset_units(table, out.preset, out.map);
   guess_units(table, out.map);
   if (find_meaning(out.map, "t") == nullptr) {
-    out.rate_Hz = file.rate_Hz > 0.0 ? file.rate_Hz : out.preset.rate_Hz;
+    out.rate_Hz = stated_Hz > 0.0 ? stated_Hz : out.preset.rate_Hz;
     if (out.rate_Hz <= 0.0) {
+      const char* option = role == FileRole::kPose   ? "--pose-file-rate"
+                           : role == FileRole::kImu  ? "--imu-rate"
+                           : role == FileRole::kGyro ? "--gyro-rate"
+                                                     : "--force-rate";
       throw Error(fmt::format(
-          "{}: no column is a time: name it (t=NAME[ms] or t=#1[ms]), or state the rate of the rows", table.file));
+          "{}: no column is a time: name it (t=NAME[ms] or t=#1[ms]), or state the rate of the rows, as {} 500",
+          table.file, option));
     }
   }
   out.table = std::move(table);

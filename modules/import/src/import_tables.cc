@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -15,12 +16,13 @@ namespace {
 
 ImportTable read_import_table(const std::filesystem::path& path, FileRole role, const MappingConfig& config,
                               const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits,
-                              const Observer& observer) {
+                              const Observer& observer, double same_file_Hz = 0.0) {
   observer.update("import", 0.0);
   std::string text = read_file(path, limits.csv_bytes);
   std::string section = mapping_of(config, role).section;
   if (section.empty()) section = preset_section(text, role);
-  return map_table(read_delimited(std::move(text), path.string(), section, observer), role, config, elsewhere);
+  return map_table(read_delimited(std::move(text), path.string(), section, observer), role, config, elsewhere,
+                   same_file_Hz);
 }
 
 bool states_force(const MappingConfig& config) {
@@ -84,14 +86,17 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   std::vector<ColumnGroup> times, sensor;
   if (!one_file) times = sensor = {ColumnGroup::kTime};
   if (!files.gyro.empty()) sensor.push_back(ColumnGroup::kRate);
+  // A rate that is stated for one of the streams of a file is that of its rows.
+  const double sensor_Hz = config.imu.rate_Hz > 0.0 ? config.imu.rate_Hz : one_file ? config.pose.rate_Hz : 0.0;
   ImportTables out;
-  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits, observer);
-  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits, observer);
+  out.pose =
+      read_import_table(files.pose, FileRole::kPose, config, times, limits, observer, one_file ? sensor_Hz : 0.0);
+  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits, observer, sensor_Hz);
   if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits, observer);
   if (!files.force.empty()) {
     out.force = read_import_table(files.force, FileRole::kForce, config, times, limits, observer);
   } else if (states_force(config) || one_file) {
-    out.force = read_import_table(imu, FileRole::kForce, config, times, limits, observer);
+    out.force = read_import_table(imu, FileRole::kForce, config, times, limits, observer, sensor_Hz);
     if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
   }
   if (!files.object.empty())
@@ -99,6 +104,33 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   require_stated_time(out, config);
   return out;
 }
+
+namespace {
+
+// "ax=-'Y'[g], ay=…": the columns of a group in the order and with the signs of `axes`, such as "-y,x,z".
+std::string exchanged_columns(const ImportTable& table, ColumnGroup group, std::string_view axes) {
+  std::array<const MappedColumn*, 3> columns{};
+  for (const MappedColumn& column : table.map) {
+    if (group_of(column.meaning) == group) columns[static_cast<std::size_t>(column.meaning.back() - 'x') % 3] = &column;
+  }
+  std::string out;
+  bool negative = false;
+  std::size_t at = 0;
+  for (const char c : axes) {
+    negative = negative || c == '-';
+    if (c < 'x' || c > 'z') continue;
+    const MappedColumn* column = columns[static_cast<std::size_t>(c - 'x')];
+    if (column == nullptr || columns[at] == nullptr) return {};
+    const std::string sign = negative != column->negative ? "-" : "";
+    out += fmt::format("{}{}={}#{}[{}]", out.empty() ? "" : ", ", columns[at]->meaning, sign, column->column + 1,
+                       column->unit);
+    negative = false;
+    ++at;
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
   const ImportTable* table = doubt.role == FileRole::kPose ? &*tables.pose : &*tables.imu;
@@ -120,6 +152,7 @@ std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
   out += doubt.message;
   if (!doubt.unit.empty()) out += "; state " + stated;
   if (!doubt.setting.empty()) out += "; state " + doubt.setting;
+  if (!doubt.axes.empty()) out += "; state " + exchanged_columns(*table, doubt.group, doubt.axes);
   return out;
 }
 

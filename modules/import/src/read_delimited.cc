@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include "asperity/base/crc32.h"
 #include "asperity/base/csv.h"
+#include "asperity/base/decode_text.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "decode_text.h"
 #include "delimited_layout.h"
 #include "header_names.h"
 #include "split_cells.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/import/import_mapped.h"
 #include "asperity/recording/import_imu_pose.h"
@@ -86,6 +87,31 @@ TEST_F(ImportOthers, ReadsAGermanTableOfEverything) {
   MappingConfig config;
   config.euler = "zyx";
   expect_same(imported({dir_ / "alles.csv", {}, {}, {}, {}}, config), 1e-9, 1e-8);
+}
+
+// The arrays of BROAD's files side by side, as its authors name them: no times, one rate for all.
+TEST_F(ImportOthers, ReadsBroadsOwnColumns) {
+  std::string text =
+      "imu_acc_x,imu_acc_y,imu_acc_z,imu_gyr_x,imu_gyr_y,imu_gyr_z,opt_pos_x,opt_pos_y,opt_pos_z,"
+      "opt_quat_w,opt_quat_x,opt_quat_y,opt_quat_z\n";
+  for (std::size_t i = 0; i < input_.pose_t_ns.size(); ++i) {
+    const Eigen::Vector3d &f = input_.specific_force_mps2[i], &w = input_.rate_radps[i];
+    const auto& p = input_.T_world_body[i].translation_m;
+    const auto& q = input_.T_world_body[i].rotation;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", f.x(), f.y(), f.z(), w.x(), w.y(), w.z(), p.x(),
+                        p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+  }
+  write_file(dir_ / "trial.csv", text);
+  MappingConfig config;
+  config.columns = "a=#1-#3[m/s2], g=#4-#6[rad/s], p=#7-#9[m], q=#10-#13";
+  config.quaternion = "wxyz";
+  EXPECT_THAT(
+      [&] {
+        read_import_tables({dir_ / "trial.csv", {}, {}, {}, {}}, config);
+      },
+      testing::ThrowsMessage<Error>(testing::HasSubstr("or state the rate of the rows, as --pose-file-rate")));
+  config.pose.rate_Hz = 2000.0 / 7.0;
+  expect_same(imported({dir_ / "trial.csv", {}, {}, {}, {}}, config), 1e-15, 1e-7);
 }
 
 TEST_F(ImportOthers, ReadsItsOwnFormToo) { expect_same(imported({pose_, imu_, {}, {}, {}}), 1e-15, 1e-7); }

@@ -99,6 +99,48 @@ TEST(CheckStreams, NamesAxesThatAreNotTheBodys) {
   EXPECT_LT(found.angularDistance(tilt), 0.01);
 }
 
+// The sensor's columns are `axes` of a right one's; mirrored rates change their sign where both rotate alike.
+ImportStreams with_sensor(const Eigen::Matrix3d& force_axes, const Eigen::Matrix3d& rate_axes) {
+  ImportStreams out = known_motion();
+  for (auto& f : out.specific_force.value) f = force_axes.transpose() * f;
+  for (auto& omega : out.rate.value) omega = rate_axes.transpose() * omega;
+  return out;
+}
+
+TEST(CheckStreams, TellsAMirroredSensorFromAnExchangedOne) {
+  const Eigen::Matrix3d mirror = sensor_axes("x,y,-z"), one = Eigen::Matrix3d::Identity();
+  // A left-handed sensor whose rates follow the left hand: turned alike is −mirror.
+  ImportStreams left = with_sensor(mirror, -mirror);
+  EXPECT_EQ(only_doubt(left).setting, "--imu-axes x,y,-z");
+  turn_sensor(left, mirror);
+  EXPECT_THAT(check_streams(left).doubts, IsEmpty());
+  // Rates alone with one sign wrong, or two columns exchanged: no rotation of the sensor explains it.
+  EXPECT_EQ(only_doubt(with_sensor(one, mirror)).axes, "x,y,-z");
+  EXPECT_EQ(only_doubt(with_sensor(one, sensor_axes("y,x,z"))).axes, "y,x,z");
+  EXPECT_EQ(only_doubt(with_sensor(one, -one)).axes, "-x,-y,-z");
+}
+
+TEST(CheckStreams, ComparesTheAxesOfPositionsAndAccelerometer) {
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  for (const char* axes : {"y,x,z", "-x,y,z", "-x,-y,-z", "z,x,y"}) {
+    const ImportDoubt doubt = only_doubt(with_sensor(sensor_axes(axes), one));
+    EXPECT_EQ(doubt.group, ColumnGroup::kAcceleration);
+    EXPECT_EQ(doubt.axes, axes);
+  }
+  ImportStreams positions = known_motion();
+  for (Pose& pose : positions.pose.T_world_body) std::swap(pose.translation_m.y(), pose.translation_m.z());
+  const ImportDoubt doubt = only_doubt(positions);
+  EXPECT_EQ(doubt.group, ColumnGroup::kPosition);
+  EXPECT_EQ(doubt.axes, "x,z,y");
+}
+
+TEST(CheckStreams, ALeverArmIsNoWrongAxis) {
+  // The body's origin is 0.4 m from the sensor: positions and accelerometer differ, and no axes are wrong.
+  ImportStreams far = known_motion();
+  for (Pose& pose : far.pose.T_world_body) pose.translation_m += pose.rotation * Eigen::Vector3d(0.3, -0.2, 0.2);
+  EXPECT_THAT(check_streams(far).doubts, IsEmpty());
+}
+
 TEST(CheckStreams, NamesAnotherOrderOfTheQuaternionItsInverseAndMirrorImages) {
   const ImportStreams right = known_motion();
   const auto changed = [&](auto change) {

@@ -6,49 +6,23 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "asperity/base/arrange_on_grid.h"
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "text_cells.h"
 
 namespace asperity {
 namespace {
 
 constexpr double kMostHeight_m = 10.0;
 
-// The separator of a line, or 0.
-char separator_of(std::string_view line) {
-  for (const char c : {';', '\t'}) {
-    if (line.find(c) != std::string_view::npos) return c;
-  }
-  return 0;
-}
-
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  std::vector<std::string_view> out;
-  while (true) {
-    const std::size_t end = separator == 0 ? std::string_view::npos : line.find(separator);
-    out.push_back(trim(line.substr(0, end)));
-    if (end == std::string_view::npos) break;
-    line.remove_prefix(end + 1);
-  }
-  if (out.size() > 1 && out.back().empty()) out.pop_back();  // a separator at the end
-  return out;
-}
-
-// With a decimal comma or point.
-std::optional<double> number_of(std::string_view cell) {
-  std::string text(cell);
-  if (std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos)
-    std::replace(text.begin(), text.end(), ',', '.');
-  return parse_double(text);
-}
-
 struct Lines {
-  explicit Lines(std::string_view text) : rest(text) {
-    if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
-  }
+  explicit Lines(std::string_view text) : rest(text) {}
   bool next() {
     if (rest.empty()) return false;
     line = rest.substr(0, rest.find('\n'));
@@ -61,158 +35,188 @@ struct Lines {
   std::size_t number = 0;
 };
 
-// Metres of the unit that a header's cell states: the last word of it, without brackets.
-std::optional<double> unit_of(std::string_view cell) {
-  while (!cell.empty() && std::string_view("])\"").find(cell.back()) != std::string_view::npos) cell.remove_suffix(1);
-  const std::size_t begin = cell.find_last_of(" [(_/\"");
-  const std::string_view word = begin == std::string_view::npos ? cell : cell.substr(begin + 1);
-  struct Unit {
-    std::string_view name;
-    double metres;
-  };
-  static constexpr std::array<Unit, 8> kUnits{{{"nm", 1e-9},
-                                               {"um", 1e-6},
-                                               {"\xc2\xb5m", 1e-6},
-                                               {"\xce\xbcm", 1e-6},
-                                               {"\xb5m", 1e-6},
-                                               {"mm", 1e-3},
-                                               {"cm", 1e-2},
-                                               {"m", 1.0}}};
-  for (const Unit& unit : kUnits) {
-    if (word == unit.name) return unit.metres;
-  }
-  return std::nullopt;
+// The lines above the first row of numbers, and that row's number and cells.
+struct TableHead {
+  std::vector<std::string_view> header;
+  std::size_t first_line = 0;
+  std::size_t width = 0;  // 0: no row of numbers
+  char separator = 0;
+};
+
+// Commas part the cells where a header line has a unit between them: else a comma may be a decimal one.
+bool commas_part(const std::vector<std::string_view>& header) {
+  return std::any_of(header.begin(), header.end(), [](std::string_view line) {
+    if (line.find_first_of(";\t") != std::string_view::npos) return false;
+    const std::size_t cells = text_cells(line, ',').size();
+    return cells > 1 && cells <= 3 && header_units_m(line, cells).has_value();
+  });
 }
 
-// A row of numbers; its last cell may be empty or a word for a missing height.
-std::optional<std::vector<double>> row_of(std::string_view line, char separator) {
-  std::vector<double> out;
-  const auto cells = cells_of(line, separator);
-  if (cells.empty() || cells.size() > 3) return std::nullopt;
-  for (const std::string_view cell : cells) {
-    const auto value = number_of(cell);
-    if (!value) return std::nullopt;
-    out.push_back(*value);
+TableHead head_of(std::string_view text, std::size_t most_lines) {
+  TableHead out;
+  Lines lines(text);
+  while (lines.next() && lines.number < most_lines) {
+    if (lines.line.empty()) continue;
+    const char separator = commas_part(out.header) ? ',' : separator_of(lines.line);
+    if (const auto row = number_row(lines.line, separator)) {
+      out.first_line = lines.number;
+      out.width = row->size();
+      out.separator = separator;
+      return out;
+    }
+    out.header.push_back(lines.line);
   }
   return out;
 }
 
-Heights grid_of(const std::vector<std::array<double, 3>>& rows, const std::string& name) {
-  ArealMap map;
-  while (map.columns < rows.size() && rows[map.columns][1] == rows[0][1]) ++map.columns;
-  if (map.columns < 2 || rows.size() % map.columns != 0 || rows.size() == map.columns)
-    throw Error(fmt::format("{}: its {} points are not a full grid of rows along x", name, rows.size()));
-  map.rows = rows.size() / map.columns;
-  map.x_spacing_m = (rows[map.columns - 1][0] - rows[0][0]) / static_cast<double>(map.columns - 1);
-  map.y_spacing_m = (rows.back()[1] - rows[0][1]) / static_cast<double>(map.rows - 1);
-  if (!(map.x_spacing_m > 0.0) || !(map.y_spacing_m > 0.0)) throw Error(name + ": x or y does not rise");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double x = rows[0][0] + static_cast<double>(i % map.columns) * map.x_spacing_m;
-    const double y = rows[0][1] + static_cast<double>(i / map.columns) * map.y_spacing_m;
-    if (!(std::abs(rows[i][0] - x) <= 0.01 * map.x_spacing_m && std::abs(rows[i][1] - y) <= 0.01 * map.y_spacing_m))
-      throw Error(fmt::format("{}: point {} is not on an even grid of {} x {}", name, i + 1, map.columns, map.rows));
-    map.height_m.push_back(rows[i][2]);
+// A header that parse_heights() knows itself: names that end in units, as x_mm,z_um.
+bool names_end_in_units(std::string_view line) {
+  if (line.find_first_of("#%/") == 0) return false;
+  const auto cells = text_cells(line, ',');
+  return std::all_of(cells.begin(), cells.end(), [](auto cell) { return split_length_name(cell).has_value(); });
+}
+
+double metres_of(HeightUnit unit) {
+  constexpr std::array<double, 4> kMetres{1e-6, 1e-3, 1.0, 1e-9};
+  return kMetres.at(static_cast<std::size_t>(unit));
+}
+
+// Of the last header line that states them, else of the setting.
+std::vector<double> units_of(const TableHead& head, const std::string& name, const ReadHeightsConfig& config) {
+  for (auto line = head.header.rbegin(); line != head.header.rend(); ++line) {
+    if (auto units = header_units_m(*line, head.width)) return std::move(*units);
   }
-  return map;
+  if (!config.units.empty()) {
+    if (auto units = header_units_m(config.units, head.width)) return std::move(*units);
+    throw Error(fmt::format("{}: '{}' does not state the units of its {} columns, as mm,um", name,
+                            printable(config.units), head.width));
+  }
+  if (head.width == 1) return {metres_of(config.unit)};
+  throw Error(
+      fmt::format("{}:{}: no header line states the units of its {} columns, as \"x [mm];z [µm]\"; --set "
+                  "input.units={} states them",
+                  name, head.first_line, head.width, head.width == 2 ? "mm,um" : "mm,mm,um"));
+}
+
+struct TableRows {
+  std::vector<std::array<double, 3>> points_m;
+  std::vector<std::size_t> line;  // of each
+};
+
+TableRows rows_of(std::string_view text, const std::string& name, const TableHead& head,
+                  const std::vector<double>& unit_m) {
+  TableRows out;
+  Lines lines(text);
+  while (lines.next()) {
+    if (lines.number < head.first_line || lines.line.empty()) continue;
+    auto row = number_row(lines.line, head.separator);
+    if (row && row->size() + 1 == head.width) row->push_back(kNan);  // "0.5;": a point without its height
+    if (!row || row->size() != head.width) {
+      throw Error(
+          fmt::format("{}:{}: '{}' is not a row of {} numbers", name, lines.number, printable(lines.line), head.width));
+    }
+    std::array<double, 3> point{};
+    for (std::size_t k = 0; k < head.width; ++k) {
+      point[k] = (*row)[k] * unit_m[k];
+      if (std::isinf(point[k]) || std::abs(point[k]) > kMostHeight_m)
+        throw Error(fmt::format("{}:{}: '{}' is more than ten metres", name, lines.number, printable(lines.line)));
+      if (std::isnan(point[k]) && k + 1 < head.width)
+        throw Error(fmt::format("{}:{}: '{}' has no position", name, lines.number, printable(lines.line)));
+    }
+    out.points_m.push_back(point);
+    out.line.push_back(lines.number);
+  }
+  return out;
+}
+
+// Names the first step that is none of `step_m`, else the position `at` that the small errors of many have moved.
+[[noreturn]] void fail_uneven(const TableRows& rows, const std::vector<double>& steps_m, double step_m, std::size_t at,
+                              const std::string& name) {
+  const auto is_even = [&](double step) { return std::abs(step / step_m - std::round(step / step_m)) <= 0.02; };
+  const auto odd = std::find_if_not(steps_m.begin(), steps_m.end(), is_even);
+  if (odd != steps_m.end()) at = static_cast<std::size_t>(odd - steps_m.begin()) + 1;
+  throw Error(fmt::format("{}:{}: its positions are not even: {} m is {} m after the one before, where most are {} m",
+                          name, rows.line[at], number_text(rows.points_m[at][0]), number_text(steps_m[at - 1]),
+                          number_text(step_m)));
+}
+
+// Heights at equal steps; steps without a row are missing.
+HeightProfile profile_of(const TableRows& rows, const std::string& name) {
+  const auto& points = rows.points_m;
+  std::vector<double> steps_m;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    steps_m.push_back(points[i][0] - points[i - 1][0]);
+    if (!(steps_m.back() > 0.0)) {
+      throw Error(fmt::format("{}:{}: its positions do not rise: {} m after {} m", name, rows.line[i],
+                              number_text(points[i][0]), number_text(points[i - 1][0])));
+    }
+  }
+  std::vector<double> ordered_m = steps_m;
+  const auto middle = ordered_m.begin() + static_cast<std::ptrdiff_t>((ordered_m.size() - 1) / 2);
+  std::nth_element(ordered_m.begin(), middle, ordered_m.end());
+  const double length_m = points.back()[0] - points.front()[0];
+  const double steps = std::round(length_m / *middle);
+  constexpr double kMostMissing = 4.0;
+  if (!(steps < kMostMissing * static_cast<double>(points.size())))
+    throw Error(name + ": its positions are not even: most steps are far shorter than their mean");
+  HeightProfile out;
+  out.spacing_m = length_m / steps;
+  out.height_m.assign(static_cast<std::size_t>(steps) + 1, kNan);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double at = (points[i][0] - points.front()[0]) / out.spacing_m;
+    if (!(std::abs(at - std::round(at)) <= 0.01)) fail_uneven(rows, steps_m, *middle, i, name);
+    out.height_m[static_cast<std::size_t>(std::round(at))] = points[i][1];
+  }
+  return out;
 }
 
 }  // namespace
 
 bool is_stylus_text(std::string_view text) {
   constexpr std::size_t kLooked_bytes = 65536, kMostLines = 400;
-  Lines lines(text.substr(0, kLooked_bytes));
-  bool seen = false;
+  const TableHead head = head_of(text.substr(0, kLooked_bytes), kMostLines);
+  if (head.width == 0) return false;
+  if (head.separator == ';' || head.separator == '\t' || head.separator == ' ') return true;
+  if (head.header.empty()) return false;
+  const auto has_separators = [](std::string_view line) { return line.find_first_of(";\t") != std::string_view::npos; };
+  if (head.width == 1 && std::any_of(head.header.begin(), head.header.end(), has_separators)) return true;
+  if (names_end_in_units(head.header.back())) return false;
+  return std::any_of(head.header.begin(), head.header.end(),
+                     [&](std::string_view line) { return header_units_m(line, head.width).has_value(); });
+}
+
+bool is_decimal_comma_column(std::string_view text) {
+  constexpr std::size_t kMostLines = 400;
+  Lines lines(text);
+  bool seen = false, with_comma = false;
   while (lines.next() && lines.number < kMostLines) {
-    const char separator = separator_of(lines.line);
-    seen = seen || separator != 0;
-    if (lines.line.empty() || !row_of(lines.line, separator)) continue;
-    if (separator != 0) return true;
-    return seen;  // one column below header lines with separators
+    const bool is_number = cell_number(lines.line).has_value();
+    if (lines.line.empty() || (!seen && !is_number && lines.line.find(',') == std::string_view::npos)) continue;
+    seen = true;
+    if (lines.line.find_first_of(".; \t") != std::string_view::npos || !is_number) return false;
+    with_comma = with_comma || lines.line.find(',') != std::string_view::npos;
   }
-  return false;
+  return with_comma;
 }
 
 Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
-  Lines lines(text);
-  std::vector<std::vector<std::string_view>> header;
-  std::vector<std::array<double, 3>> rows;
-  std::array<double, 3> unit_m{};
-  std::size_t width = 0, first_line = 0;
-  while (lines.next()) {
-    const char separator = separator_of(lines.line);
-    auto row = row_of(lines.line, separator);
-    if (width == 0) {
-      if (!row) {
-        if (!lines.line.empty()) header.push_back(cells_of(lines.line, separator));
-        continue;
-      }
-      width = row->size();
-      first_line = lines.number;
-      // The last header line that states a unit for each column.
-      bool found = false;
-      for (auto line = header.rbegin(); line != header.rend() && !found; ++line) {
-        if (line->size() != width) continue;
-        found = true;
-        for (std::size_t k = 0; k < width; ++k) {
-          const auto unit = unit_of((*line)[k]);
-          found = found && unit.has_value();
-          unit_m[k] = unit.value_or(0.0);
-        }
-      }
-      if (!found && width > 1) {
-        throw Error(fmt::format("{}:{}: no header line states the units of its {} columns, as \"x [mm];z [µm]\"", name,
-                                lines.number, width));
-      }
-      constexpr std::array<double, 4> kMetres{1e-6, 1e-3, 1.0, 1e-9};
-      if (!found) unit_m[0] = kMetres.at(static_cast<std::size_t>(config.unit));
-    }
-    // A point without its height.
-    if (!row && width > 1) {
-      auto cells = cells_of(lines.line, separator);
-      if (cells.size() == width) cells.pop_back();
-      std::vector<double> places;
-      for (const std::string_view cell : cells) {
-        if (const auto value = number_of(cell)) places.push_back(*value);
-      }
-      if (places.size() + 1 == width) row = places, row->push_back(kNan);
-    }
-    if (row && row->size() + 1 == width) row->push_back(kNan);
-    if (!row || row->size() != width) {
-      if (lines.line.empty()) continue;
-      throw Error(
-          fmt::format("{}:{}: '{}' is not a row of {} numbers", name, lines.number, printable(lines.line), width));
-    }
-    std::array<double, 3> point{};
-    for (std::size_t k = 0; k < width; ++k) {
-      const double value = (*row)[k] * unit_m[k];
-      if (std::isinf(value) || std::abs(value) > kMostHeight_m)
-        throw Error(fmt::format("{}:{}: '{}' is more than ten metres", name, lines.number, printable(lines.line)));
-      if (std::isnan(value) && k + 1 < width)
-        throw Error(fmt::format("{}:{}: '{}' has no position", name, lines.number, printable(lines.line)));
-      point[k] = value;
-    }
-    rows.push_back(point);
+  const TableHead head = head_of(text, text.size());
+  const TableRows rows = rows_of(text, name, head, units_of(head, name, config));
+  if (rows.points_m.size() < 2) throw Error(name + ": fewer than two heights");
+  if (head.width > 1 && !text.ends_with('\n')) {
+    throw Error(
+        fmt::format("{}:{}: the file does not end in a newline: its last row may be cut off", name, rows.line.back()));
   }
-  if (rows.size() < 2) throw Error(name + ": fewer than two heights");
-  if (width == 3) return grid_of(rows, name);
+  if (head.width == 3) {
+    if (auto map = arrange_on_grid(rows.points_m)) return std::move(*map);
+    throw Error(fmt::format("{}: its {} points are not those of an even grid, each once, or its end was cut off", name,
+                            rows.points_m.size()));
+  }
+  if (head.width == 2) return profile_of(rows, name);
+  if (!(config.spacing_m > 0.0)) throw Error(name + ": the spacing of its heights must be given");
   HeightProfile profile;
-  for (const auto& point : rows) profile.height_m.push_back(point[width - 1]);
-  if (width == 1) {
-    if (!(config.spacing_m > 0.0)) throw Error(name + ": the spacing of its heights must be given");
-    profile.spacing_m = config.spacing_m;
-    return profile;
-  }
-  profile.spacing_m = (rows.back()[0] - rows[0][0]) / static_cast<double>(rows.size() - 1);
-  if (!(profile.spacing_m > 0.0)) throw Error(name + ": its positions do not rise");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double expected_m = rows[0][0] + static_cast<double>(i) * profile.spacing_m;
-    if (!(std::abs(rows[i][0] - expected_m) <= 0.01 * profile.spacing_m)) {
-      throw Error(
-          fmt::format("{}: its positions are not even: row {} of the data (from line {}) has {} m where {} m was "
-                      "expected",
-                      name, i + 1, first_line, number_text(rows[i][0]), number_text(expected_m)));
-    }
-  }
+  profile.spacing_m = config.spacing_m;
+  for (const auto& point : rows.points_m) profile.height_m.push_back(point[0]);
   return profile;
 }
 

@@ -1,9 +1,12 @@
 #include "asperity/profile/read_heights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "asperity/base/arrange_on_grid.h"
 #include "asperity/base/csv.h"
+#include "asperity/base/decode_text.h"
 #include "asperity/base/error.h"
 #include "asperity/base/read_areal_map.h"
 #include "asperity/base/text.h"
@@ -135,31 +138,94 @@ ArealMap heights_of_tiff(std::string_view bytes, const std::string& name, const 
   return map;
 }
 
+// The points in any order, where they are not in that of a full grid.
+ArealMap areal_map_of(std::string_view text, const std::string& name, const std::array<double, 3>& unit_m) {
+  CsvReader in_order(text, name, CsvHeader::kOptional);
+  in_order.accept_unterminated();
+  try {
+    return read_areal_map(in_order, unit_m);
+  } catch (const Error&) {
+    if (!text.ends_with('\n')) throw;
+    CsvReader table(text, name, CsvHeader::kOptional);
+    std::vector<std::array<double, 3>> points_m;
+    while (table.next()) {
+      points_m.push_back({});
+      for (std::size_t k = 0; k < 3; ++k) points_m.back()[k] = plausible_m(table, k, unit_m[k]);
+      if (std::isnan(points_m.back()[0]) || std::isnan(points_m.back()[1])) throw;
+    }
+    auto map = arrange_on_grid(points_m);
+    if (!map) throw;
+    return std::move(*map);
+  }
+}
+
+[[noreturn]] void refuse_image(const std::string& name) {
+  throw Error(name +
+              ": a picture (PNG, JPEG) states neither the spacing nor the range of its heights; asperity feel "
+              "--height-maps takes it, and a TIFF of heights is read here");
+}
+
+bool is_picture(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG\r\n") || bytes.starts_with("\xff\xd8\xff");
+}
+
+HeightProfile profile_of_map(ArealMap map, const std::string& name) {
+  HeightProfile profile;
+  profile.height_m = std::move(map.height_m);
+  profile.spacing_m = map.x_spacing_m;
+  if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
+  return profile;
+}
+
+Heights parse_text_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+  if (config.column.empty() && (is_stylus_text(text) || (config.spacing_m > 0.0 && is_decimal_comma_column(text))))
+    return parse_stylus_text(text, name, config);
+  CsvReader table(text, name, CsvHeader::kOptional);
+  table.accept_unterminated();
+  if (const auto units = areal_units_m(table)) return areal_map_of(text, name, *units);
+  return read_profile_heights(table, config, text.ends_with('\n'));
+}
+
+// No instrument measures heights that span far more than what it moves over: their unit is another.
+void check_span(const Heights& heights, const std::string& name) {
+  constexpr double kMostSpan = 100.0;
+  constexpr std::size_t kLeastHeights = 16;  // fewer are an example
+  const auto* map = std::get_if<ArealMap>(&heights);
+  const auto& height_m = map != nullptr ? map->height_m : std::get<HeightProfile>(heights).height_m;
+  if (height_m.size() < kLeastHeights) return;
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  for (const double z : height_m) {
+    if (std::isnan(z)) continue;
+    lowest = std::min(lowest, z);
+    highest = std::max(highest, z);
+  }
+  const auto side = [](std::size_t count, double spacing_m) { return static_cast<double>(count) * spacing_m; };
+  const double length_m = map != nullptr
+                              ? std::max(side(map->columns, map->x_spacing_m), side(map->rows, map->y_spacing_m))
+                              : side(height_m.size(), std::get<HeightProfile>(heights).spacing_m);
+  if (highest - lowest > kMostSpan * length_m) {
+    throw Error(name + ": its heights span " + number_text(highest - lowest) + " m over a length of " +
+                number_text(length_m) + " m: their unit or the spacing is another");
+  }
+}
+
 }  // namespace
 
 Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+  Heights out;
   if (auto file = parse_surface_file(text, name)) {
-    if (!file->is_profile()) return std::move(file->map);
-    HeightProfile profile;
-    profile.height_m = std::move(file->map.height_m);
-    profile.spacing_m = file->map.x_spacing_m;
-    if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
-    return profile;
+    out = std::move(file->map);
+  } else if (is_tiff(text)) {
+    out = heights_of_tiff(text, name, config);
+  } else if (is_picture(text)) {
+    refuse_image(name);
+  } else {
+    out = parse_text_heights(decode_text(std::string(text), name).text, name, config);
   }
-  if (is_tiff(text)) {
-    ArealMap map = heights_of_tiff(text, name, config);
-    if (map.rows > 1) return map;
-    HeightProfile profile;
-    profile.height_m = std::move(map.height_m);
-    profile.spacing_m = map.x_spacing_m;
-    if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
-    return profile;
-  }
-  if (is_stylus_text(text)) return parse_stylus_text(text, name, config);
-  CsvReader table(text, name, CsvHeader::kOptional);
-  table.accept_unterminated();
-  if (const auto units = areal_units_m(table)) return read_areal_map(table, *units);
-  return read_profile_heights(table, config, text.ends_with('\n'));
+  if (auto* map = std::get_if<ArealMap>(&out); map != nullptr && map->rows == 1)
+    out = profile_of_map(std::move(*map), name);
+  check_span(out, name);
+  return out;
 }
 
 Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config) {

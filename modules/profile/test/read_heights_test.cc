@@ -1,5 +1,6 @@
 #include "asperity/profile/read_heights.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -158,10 +159,86 @@ TEST(ReadHeights, TablesOfStylusInstruments) {
   EXPECT_DOUBLE_EQ(map.height_m[5], 6e-6);
 
   expect_error("weg;z\n0;1\n1;2\n", "f.csv:2: no header line states the units of its 2 columns");
-  expect_error("x [mm];z [um]\n0;1\n1;2\n5;2\n", "its positions are not even: row 2");
+  expect_error("x [mm];z [um]\n0;1\n1;2\n2.5;2\n", "f.csv:4: its positions are not even: 0.0025 m is 0.0015 m after");
+  expect_error("x [mm];z [um]\n0;1\n1;2\n1;2\n", "f.csv:4: its positions do not rise");
   expect_error("x [mm];z [um]\n0;1\n1;2\nend of data\n", "f.csv:4: 'end of data' is not a row of 2 numbers");
   expect_error("x [mm];z [um]\n0;1\n1;1e12\n", "f.csv:3: '1;1e12' is more than ten metres");
-  expect_error("x [mm];y [mm];z [um]\n0;0;1\n1;0;2\n0;1;1\n", "not a full grid");
+  expect_error("x [mm];y [mm];z [um]\n0;0;1\n1;0;2\n0;1;1\n", "its end was cut off");
+  expect_error("x [mm];z [um]\n0;1\n1;2\n2;2", "f.csv:4: the file does not end in a newline");
+  // A damaged number is not a missing height; the words for one are.
+  expect_error("x [mm];z [um]\n0;1\n1;?.5\n", "f.csv:3: '1;?.5' is not a row of 2 numbers");
+  for (const char* word : {"", "NaN", "BAD", "***", "---", "\"No Data\""}) {
+    const HeightProfile gap = profile_of(std::string("x [mm];z [um]\n0;1\n1;") + word + "\n2;3\n");
+    ASSERT_EQ(gap.height_m.size(), 3u) << word;
+    EXPECT_TRUE(std::isnan(gap.height_m[1])) << word;
+  }
+}
+
+TEST(ReadHeights, TablesWithCommasAndBlanks) {
+  for (const char* head : {"X [mm],Z [\xc2\xb5m]\n", "Position (mm),Height (um)\n", "Scan 7\nx,z\nmm,um\n"}) {
+    const HeightProfile profile = profile_of(std::string(head) + "0.0,1.5\n0.5,-2\n1.0,3\n");
+    EXPECT_DOUBLE_EQ(profile.spacing_m, 0.5e-3) << head;
+    EXPECT_DOUBLE_EQ(profile.height_m[1], -2e-6) << head;
+  }
+  const HeightProfile blanks = profile_of("# x[mm]  z[nm]\n0.0   1.5\n 0.5  -2\n1.0\t3\n");
+  EXPECT_DOUBLE_EQ(blanks.height_m[2], 3e-9);
+  // Without units they are stated; a number's unit in a header line is not the columns'.
+  expect_error("length 4.8 mm step 0.5 um\n0 1\n1 2\n", "f.csv:2: no header line states the units of its 2 columns");
+  expect_error("0 1\n1 2\n", "--set input.units=mm,um states them");
+  expect_error("0 1\n1 2\n", "'mm' does not state the units of its 2 columns", {.units = "mm"});
+  EXPECT_DOUBLE_EQ(profile_of("0 1\n1 2\n", {.units = "mm,um"}).height_m[1], 2e-6);
+}
+
+TEST(ReadHeights, OneColumnInItsHeadersUnitOrWithDecimalCommas) {
+  const ReadHeightsConfig one_um{.spacing_m = 1e-6};
+  EXPECT_DOUBLE_EQ(profile_of("Height (nm)\n1.5\n2\n", one_um).height_m[0], 1.5e-9);
+  EXPECT_DOUBLE_EQ(profile_of("-0,25\n1,5\n2\n", one_um).height_m[0], -0.25e-6);
+  EXPECT_DOUBLE_EQ(profile_of("Profil\n-0,25\n1,5\n", one_um).height_m[1], 1.5e-6);
+}
+
+TEST(ReadHeights, TextInUtf16) {
+  std::string utf16 = "\xff\xfe";
+  for (const char c : std::string("x [mm]\tz [um]\n0\t1\n1\t2\n")) utf16 += {c, '\0'};
+  EXPECT_DOUBLE_EQ(profile_of(utf16).height_m[1], 2e-6);
+}
+
+TEST(ReadHeights, PicturesAreSentToTheirOption) {
+  expect_error(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "feel --height-maps takes it");
+  expect_error("\xff\xd8\xff\xe0", "states neither the spacing nor the range");
+}
+
+TEST(ReadHeights, RowsThatWereLeftOutAreMissing) {
+  const HeightProfile profile = profile_of("x [mm];z [um]\n0;1\n0,5;2\n1,5;4\n2;5\n");
+  ASSERT_EQ(profile.height_m.size(), 5u);
+  EXPECT_TRUE(std::isnan(profile.height_m[2]));
+  EXPECT_DOUBLE_EQ(profile.height_m[3], 4e-6);
+
+  // Points of a map in any order, one left out, the corner too: a map, not a file that was cut.
+  const std::string points[] = {"2 1 6", "0 0 1", "2 0 3", "1 2 8", "0 1 4", "1 0 2", "0 2 7"};
+  for (const char* head : {"x[mm] y[mm] z[um]\n", "x_mm,y_mm,z_um\n"}) {
+    std::string text = head;
+    for (std::string point : points) {
+      if (text.find(',') != std::string::npos) std::replace(point.begin(), point.end(), ' ', ',');
+      text += point + "\n";
+    }
+    const ArealMap map = map_of(text);
+    ASSERT_EQ(map.columns, 3u) << head;
+    ASSERT_EQ(map.rows, 3u) << head;
+    for (std::size_t i = 0; i < 9; ++i) {
+      if (i == 4 || i == 8) {
+        EXPECT_TRUE(std::isnan(map.height_m[i])) << head << i;
+      } else {
+        EXPECT_DOUBLE_EQ(map.height_m[i], 1e-6 * static_cast<double>(i + 1)) << head << i;
+      }
+    }
+    expect_error(text + points[0] + "\n", head[1] == '_' ? "" : "each once");
+  }
+}
+
+TEST(ReadHeights, HeightsFarAboveTheLengthHaveAnotherUnit) {
+  std::string text = "x [mm];z [m]\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + (i % 2 == 0 ? ";0\n" : ";2,5\n");
+  expect_error(text, "heights span 2.5 m over a length of 0.02 m");
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ std::optional<Column> find_column(const CsvReader& csv, std::initializer_list<st
 std::optional<std::vector<ArealSample>> read_scattered(const std::string& file) {
   const std::string text = read_file(file, kLargestFile_bytes);
   const std::string_view start = std::string_view(text).substr(0, text.find('\n'));
-  if (start.find('y') == std::string_view::npos) return std::nullopt;
+  // Instruments' files and text in other encodings are read_heights()'s.
+  if (start.find('y') == std::string_view::npos || start.find('\0') != std::string_view::npos || !is_utf8(start))
+    return std::nullopt;
   CsvReader csv(text, file);
   const auto x = find_column(csv, {"x"});
   const auto y = find_column(csv, {"y"});

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -158,6 +159,14 @@ SurfaceFile parse_text(std::string_view bytes, const std::string& name) {
                               out.map.height_m.size() + 1, count));
     }
     out.map.height_m.push_back(*value * header.z_m);
+  }
+  // A '*' ends the heights; the trailer behind it is free text.
+  const std::size_t next = rest.find_first_not_of(" \t\r\n,;");
+  if (next != std::string_view::npos && rest[next] != '*') {
+    line += static_cast<std::size_t>(std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
+    const std::string_view word = rest.substr(next, rest.find_first_of(" \t\r\n,;", next) - next);
+    throw Error(fmt::format("{}:{}: '{}' behind the {} heights of its {} x {} points", name, line, printable(word),
+                            count, header.columns, header.rows));
   }
   return out;
 }

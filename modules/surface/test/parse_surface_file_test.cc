@@ -70,6 +70,12 @@ std::string sdf_text(const std::string& version, const std::string& separator) {
 TEST(SurfaceFile, SdfText) {
   expect_relief(*parse_surface_file(sdf_text("aISO-1.0", "\n"), "a.sdf"), 1e-15);
   expect_relief(*parse_surface_file(sdf_text("aBCR-1.0", " \r\n"), "a.sdf"), 1e-15);
+  // More heights than points: one of both is damaged. Free text behind the last '*' is not.
+  std::string more = sdf_text("aISO-1.0", "\n");
+  EXPECT_TRUE(parse_surface_file(more + "Operator\n*\n", "a.sdf"));
+  more.insert(more.rfind("\n*"), "\n17");
+  EXPECT_THAT([&] { parse_surface_file(more, "a.sdf"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("'17' behind the 6 heights")));
 }
 
 template <class Number>

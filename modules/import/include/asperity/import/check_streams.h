@@ -15,6 +15,7 @@ struct ImportDoubt {
   std::string message;  // what is seen, and what it looks like
   std::string unit;     // the unit that would fit; "" if it is not a unit
   std::string setting;  // the option that would fit, such as "--imu-axes y,-x,z"; "" if it is not one
+  std::string axes{};   // the group's columns that would fit as x, y, z, such as "y,-x,z"; "" if it is not these
 };
 
 // How the streams were read, for what would fit better.
@@ -43,10 +44,11 @@ struct StreamChecks {
 // least, the gyroscope's RMS agrees within 15 %, and the cosine Σ ω_p·ω_g / √(Σω_p² Σω_g²), without the means of both
 // where 0.05 rad/s RMS remain, is above 0.8; both within two standard errors. If not, other orders of the quaternion,
 // the inverse rotation, mirrored axes and the 24 exchanges of axes are tried, and a rotation fitted to the pairs
-// (Kabsch 1976). Poses that scatter by more than 0.1 rad from one to the next are not orientations. Lengths: where the
-// acceleration is above 0.3 m/s² RMS, second differences of the positions over 0.1 s against the twice integrated
-// specific force, regression slope within 0.5 to 2; and speeds below 20 m/s. Poses and sensor must be on one clock.
-// Streams that are empty are not checked.
+// (Kabsch 1976). A mirrored sensor is told from an exchanged one by the accelerometer. Poses that scatter by more than
+// 0.1 rad from one to the next are not orientations. Lengths: where the acceleration is above 0.3 m/s² RMS, second
+// differences of the positions over 0.1 s against the twice integrated specific force, regression slope within 0.5 to
+// 2, or a cosine below 0.7 that other axes of the accelerometer or the positions raise above 0.9; and speeds below 20
+// m/s. Poses and sensor must be on one clock. Streams that are empty are not checked.
 StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& units = {});
 
 // The cosine of check_streams for rotations, at most 1 less two standard errors; 0 where it is not determined.

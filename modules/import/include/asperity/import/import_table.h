@@ -19,9 +19,10 @@ struct ImportTable {
 
 // Decides it. Columns that MappingConfig::columns states count for a file of `role` if it can have such (times for
 // any); those of the role's FileMapping come first. `elsewhere`: groups of which a
-// stated column that is not in the table may be in another file. Throws Error naming file, column and unit.
+// stated column that is not in the table may be in another file. `same_file_Hz`: the rate that was stated for another
+// role of the same file. Throws Error naming file, column and unit.
 ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config,
-                      const std::vector<ColumnGroup>& elsewhere = {});
+                      const std::vector<ColumnGroup>& elsewhere = {}, double same_file_Hz = 0.0);
 
 // The role's part of the configuration.
 const FileMapping& mapping_of(const MappingConfig& config, FileRole role);

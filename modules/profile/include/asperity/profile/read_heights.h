@@ -18,6 +18,7 @@ struct ReadHeightsConfig {
   double spacing_m = 0.0;
   std::string column{};
   HeightUnit unit = HeightUnit::kMicrometre;
+  std::string units{};
 
   template <class V>
   void visit(V& v) {
@@ -25,6 +26,7 @@ struct ReadHeightsConfig {
             "distance of the heights, for files without positions (one column, TIFF); 0: not given", {0.0, 1.0});
     v.field("column", column, "the column of heights; empty: texture_m, else height_m, else the only one");
     v.choice("unit", unit, kHeightUnitNames, "of a column whose name ends in no unit, and of a TIFF");
+    v.field("units", units, "of a table's columns where no header line states them: mm,um or mm,mm,um");
   }
 };
 
@@ -45,12 +47,15 @@ using Heights = std::variant<HeightProfile, ArealMap>;
 //   x_mm,z_um                  positions and heights, units by name
 //   height                     one column, with or without a header; needs `spacing_m`. A name that
 //                              ends in _nm, _um, _µm, _mm, _cm or _m says its unit
-//   x_mm,y_mm,z_µm             an areal map on a full rectangular grid, with or without that header
-//                              (other units by name), rows along x or along y; blank lines allowed
-//   header lines, then x and z a row, or z alone: what stylus instruments export, separated by semicolons or tabs, with
-//                              decimal points or commas; units by a word of the last header lines, as [µm] or (mm)
-// Throws Error naming file, line and value for anything else, infinite numbers, uneven positions, a
-// spacing that is missing or contradicts s_m, or a file of more than 512 MiB.
+//   x_mm,y_mm,z_µm             an areal map with or without that header (other units by name), blank lines allowed;
+//                              rows along x or along y, or points in any order, of which some may be left out
+//                              (base/arrange_on_grid.h)
+//   header lines, then x and z a row, z alone, or x, y and z: what stylus instruments and other programs export,
+//                              separated by semicolons, tabs, blanks or commas, with decimal points or commas; units by
+//                              a word of the last header lines, as [µm] or (mm), else by `units`
+// Text is UTF-8, UTF-16 with a byte order mark, or Latin-1. Throws Error naming file, line and value for anything else,
+// infinite numbers, uneven positions, a spacing that is missing or contradicts s_m, 16 or more heights that span more
+// than a hundred times the length and width (another unit is meant), or a file of more than 512 MiB.
 Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {});
 
 // The same from text in memory; `name` is what messages call it.

@@ -1,4 +1,4 @@
-#include "decode_text.h"
+#include "asperity/base/decode_text.h"
 
 #include <cstdint>
 
