@@ -51,7 +51,8 @@ class RecordCommand : public Command {
         ->type_name("ADDRESS")
         ->suggest(std::array{"serial:", "usb:", "udp:", "file:"});
     parser()
-        .add_option("--protocol", input_.protocol, "open (the default) or what")
+        .add_option("--protocol", input_.protocol,
+                    "open (the default), or what (the WHaT, the probe of Andrews's thesis)")
         ->type_name("NAME")
         ->suggest(kProbeProtocolNames);
     parser()

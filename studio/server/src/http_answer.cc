@@ -3,6 +3,7 @@
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
+#include "document_answer.h"
 #include "secret.h"
 
 namespace asperity::studio {
@@ -16,7 +17,7 @@ std::optional<std::string> session_cookie(const HttpRequest& request, const Site
 }
 
 bool takes_gzip(const HttpRequest& request) {
-  if (!request.accept_encoding) return true;  // who names none takes any (RFC 9110, 12.5.3)
+  if (!request.accept_encoding) return true;  // a request that names none accepts any (RFC 9110, 12.5.3)
   std::string_view rest = *request.accept_encoding;
   while (!rest.empty()) {
     const std::size_t end = rest.find(',');
@@ -119,6 +120,7 @@ HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
     answer.headers.emplace_back("Upgrade", "websocket");
     return answer;
   }
+  if (path == "/docs" || path.starts_with("/docs/")) return answer_document(path, site.documents);
   return answer_asset(request, path, site);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,7 +35,8 @@ struct Site {
   Sessions* sessions = nullptr;  // not null
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
-  std::function<std::string(std::string_view gzip)> unpack;  // for who takes no gzip
+  std::function<std::string(std::string_view gzip)> unpack;  // for a browser without gzip
+  std::filesystem::path documents = {};                      // of WebServerConfig
 };
 
 // The answer to a request that asks for no WebSocket (docs/studio-safety.md).
@@ -49,7 +51,7 @@ std::vector<std::pair<std::string, std::string>> safety_headers(const std::optio
 
 enum class Admission {
   kForeign,   // of another host or origin, or for another path: no WebSocket
-  kStranger,  // our own page, without the cookie: to be told so by close code 4401
+  kStranger,  // our own page, without the cookie: which close code 4401 states
   kWelcome,
 };
 struct Admitted {

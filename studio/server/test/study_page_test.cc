@@ -26,7 +26,7 @@ TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
   EXPECT_EQ(rig.status()["phase"], "finished");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_THAT(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).error, HasSubstr("being written"));
-  // By whatever name.
+  // By any name.
   std::filesystem::create_symlink("study_p01.study.csv", folder / "other.study.csv");
   for (const char* name : {"./study_p01.study.csv", ".//study_p01.study.csv", "other.study.csv"}) {
     EXPECT_THAT(rig.ask("study.results", {{"log", name}}).error, HasSubstr("being written")) << name;
@@ -58,7 +58,7 @@ TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
   EXPECT_EQ(block.head["textures"].size(), 2U);
   EXPECT_TRUE(block.array<float>("height_0").empty());
   EXPECT_TRUE(rig.ask("feel.status").result["warnings"].empty());
-  // Pressed into a tile: the hand feels it, and the browser sees neither height nor parts of the force.
+  // Pressed into a tile: the hand touches it, and the browser sees neither height nor parts of the force.
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};
   EXPECT_TRUE(rig.pump([&] { return rig.hub.state().is_object() && rig.hub.state()["touching"].get<bool>(); }));
@@ -76,7 +76,7 @@ TEST_F(StudyPageTest, TellsAnObserverNothingOfWhatWasTouched) {
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};
   EXPECT_TRUE(rig.pump([&] { return rig.hub.state().is_object() && rig.hub.state()["touching"].get<bool>(); }));
-  // The figures of a run have the heights under the tip and the largest force of the texture.
+  // The values of a run have the heights under the tip and the largest force of the texture.
   EXPECT_EQ(rig.ask("study.touch", {{"on", false}}).error, "");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_TRUE(rig.ask("feel.status", Json::object(), kObserver).result["last_run"].is_null());
@@ -160,7 +160,7 @@ TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was touched"));
   rig.beating = true;
   EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
-  // It lapses: the clock of the response stands.
+  // It lapses: the clock of the response is.
   rig.beating = false;
   EXPECT_TRUE(rig.pump([&] { return !rig.session()["ready"].get<bool>(); }));
   EXPECT_TRUE(rig.session()["touching"].get<bool>());
@@ -174,6 +174,38 @@ TEST_F(StudyPageTest, IsNotTouchedWhereNoForceIsCommanded) {
   rig.shared.may_command_forces = false;
   ASSERT_EQ(rig.ask("study.begin").error, "");
   EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("does not command forces"));
+}
+
+// An answer counts only after both textures were pressed on.
+TEST_F(StudyPageTest, TakesNoAnswerBeforeBothWereTouchedWithForce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  const Json first{{"trial", 1}, {"answer", 0}};
+  EXPECT_THAT(rig.ask("study.answer", first).error, HasSubstr("not both textures were touched with force"));
+  rig.press(false);
+  EXPECT_FALSE(rig.session()["may_answer"].get<bool>());
+  EXPECT_THAT(rig.ask("study.answer", first).error, HasSubstr("not both"));
+  rig.press(true);
+  EXPECT_TRUE(rig.session()["may_answer"].get<bool>());
+  EXPECT_EQ(rig.ask("study.answer", first).error, "");
+  EXPECT_FALSE(rig.session()["touched_left"].get<bool>()) << "of the next trial";
+  const StudyLog written = parse_study_log(log(), "log");
+  for (const TileTouch& touch : written.session.answers().front().touches) {
+    EXPECT_GE(touch.touch_s, 0.2);
+    EXPECT_GE(touch.force_N, 0.1);
+  }
+}
+
+TEST_F(StudyPageTest, BeginsWithConsentWhereItIsAskedFor) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  rig.document.edit("/study/study/consent", "I take part of my own will.", "consent");
+  EXPECT_THAT(rig.ask("study.begin").error, HasSubstr("has not agreed"));
+  EXPECT_THAT(rig.ask("study.begin", {{"consented", false}}).error, HasSubstr("has not agreed"));
+  EXPECT_EQ(rig.ask("study.begin", {{"consented", true}}).error, "");
+  EXPECT_THAT(log(), HasSubstr("I take part of my own will."));
 }
 
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {

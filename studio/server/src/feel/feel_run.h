@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "asperity/session/run_evidence.h"
 #include "asperity/studio/hub.h"
 #include "feel/run_log.h"
+#include "feel/tile_touches.h"
 
 namespace asperity::studio {
 
@@ -38,8 +40,8 @@ struct FeelOutcome {
   std::exception_ptr failure;  // what the loop or the log threw, with zero force
 };
 
-// A scene being felt: run_servo on threads of its own, which no browser and no page can delay. Functions are for the
-// studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
+// A scene being rendered: run_servo on threads of its own, which no browser and no page can delay. Functions are for
+// the studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
 class FeelRun {
  public:
   // Begins at once. On the run's thread are called: `log_ended` for each log, and last `ended`, when the force is zero
@@ -55,7 +57,9 @@ class FeelRun {
   void stop() noexcept { stop_.store(true); }
   // Another scene, while it is touched.
   void swap(std::unique_ptr<const RenderModel> model) { scene_.publish(std::move(model)); }
-  // Where the pointer wants the device point; nothing for a device that a hand or a path moves.
+  // What hears of the ticks from now on; may be null.
+  void watch(std::shared_ptr<TileTouches> touches);
+  // The target of the device point by the pointer; nothing for a device that a hand or a path moves.
   void point(const Eigen::Vector3d& p_world_m) noexcept;
 
   RunLog& log() { return log_; }
@@ -65,12 +69,15 @@ class FeelRun {
 
  private:
   void run(Hub& hub, std::uint64_t number);
+  void note_touch(const ServoTick& tick);
 
   FeelRunParts parts_;
   SnapshotExchange<const RenderModel> scene_;
   ForcePermit permit_;
   std::atomic<bool> stop_{false};
   RunLog log_;
+  std::mutex watch_mutex_;
+  std::shared_ptr<TileTouches> touches_;
   FeelOutcome outcome_;
   std::function<void()> ended_;
   std::thread thread_;

@@ -8,6 +8,7 @@ import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { CameraImage } from "./CameraImage";
 import { discard, rescan, restore, segment, startOrStop, toggleAuto } from "./commands";
+import { GuidePanel } from "./GuidePanel";
 import { HintsPanel } from "./HintsPanel";
 import { ProfilePlot } from "./ProfilePlot";
 import { RecordPanel } from "./RecordPanel";
@@ -32,7 +33,7 @@ const ACCELERATION = [
   { label: "z", colour: 4 as const },
 ];
 
-/** Record a surface and watch its profile grow (seed Fig. 7 and §7.2). */
+/** Record a surface and watch its profile grow (thesis Fig. 7 and §7.2). */
 export default function ScanPage() {
   const [known, setKnown] = useState<ConfigField[]>([]);
   useEffect(follow, []);
@@ -53,7 +54,8 @@ export default function ScanPage() {
       stripHeight="48%"
       side={
         <>
-          <RecordPanel />
+          <GuidePanel />
+<RecordPanel />
           <SourcePanel fields={fields} />
           <TuningPanel fields={fields} />
         </>
@@ -90,7 +92,7 @@ export default function ScanPage() {
   );
 }
 
-/** The stream's figures for tests and scripts. */
+/** The stream's values for tests and scripts. */
 function StreamLine() {
   const { median_ms, late_ms, rows, lost, profile_ms, profile_late_ms } = figures.value;
   const told = (time_ms: number) => (Number.isFinite(time_ms) ? time_ms.toFixed(1) : "");
