@@ -66,8 +66,7 @@ Rows finite_rows(py::handle given, const char* name) {
   Rows rows(given, name);
   const std::span<const Eigen::Vector3d> all = rows.all();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].allFinite())
-      throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is not finite");
+    if (!all[i].allFinite()) throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is not finite");
   }
   return rows;
 }
