@@ -1,8 +1,9 @@
 // Pictures of every page: node screenshots.mjs BINARY DOCS [ALL [PAGE…]]. Those that the documentation shows go to DOCS, all sizes and
-// themes to ALL.
+// themes to ALL, where axe-core checks each of them too: its violations are printed, and the program ends with 1.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { violations } from "./lib/axe.mjs";
 import { launch, openPage } from "./lib/browser.mjs";
 import { Projects } from "./lib/project.mjs";
 import { scenes } from "./lib/scenes.mjs";
@@ -14,12 +15,16 @@ if (!docs) {
   process.exit(2);
 }
 const kSizes = [
-  [1400, 860],
+  [1440, 900],
   [1024, 700],
+  [768, 1024],
+  [390, 844],
 ];
 
 const kSettle_ms = 350;
 const kTries = 20;
+
+const found = [];
 
 /** A page that moves is taken as it is; another when plots and views have followed: two pictures are the same. */
 async function taken(page, moves) {
@@ -45,8 +50,9 @@ async function looks(page, name, before) {
       await page.emulateMedia({ colorScheme: theme });
       await before?.({ page });
       const picture = await taken(page, before !== undefined);
+      if (all) found.push(...(await violations(page)).map((one) => `${name}, ${width} × ${height}, ${theme}: ${one}`));
       if (all) writeFileSync(join(all, `${name}-${width}-${theme}.png`), picture);
-      if (width === 1400 && theme === "light") writeFileSync(join(docs, `${name}.png`), picture);
+      if (width === kSizes[0][0] && theme === "light") writeFileSync(join(docs, `${name}.png`), picture);
     }
   }
 }
@@ -79,4 +85,9 @@ try {
 } finally {
   await browser.close();
   projects.remove();
+}
+if (all) console.log(`axe-core: ${found.length} violations`);
+if (found.length > 0) {
+  console.log(found.join("\n"));
+  process.exitCode = 1;
 }

@@ -97,3 +97,24 @@ test("a range is left when its data has gone", () => {
   expect(rangeAfter(range(2, 4), range(0, 10), range(5, 20))).toEqual(range(5, 20));
   expect(rangeAfter(range(0, 10), range(0, 10), range(0, 20))).toEqual(range(0, 20));
 });
+
+test("plots of a group zoom together, and one that shows all again shows all in each", async () => {
+  const props = () => ({ label: "", series: [], xAxis: { label: "x" }, yAxis: { label: "y" }, syncKey: "group" });
+  const place = { clientWidth: 400, clientHeight: 200 } as HTMLElement;
+  const short = new Drawing(place, props, grown(11), () => undefined);
+  const shortPlot = FakePlot.newest;
+  const long = new Drawing(place, props, grown(21), () => undefined);
+  const longPlot = FakePlot.newest;
+  await Promise.resolve();
+  shortPlot.setScale("x", { min: 2, max: 4 });
+  await Promise.resolve();
+  expect([longPlot.scales.x.min, longPlot.scales.x.max]).toEqual([2, 4]);
+  long.key("0");
+  expect([longPlot.scales.x.min, longPlot.scales.x.max]).toEqual([0, 20]);
+  expect([shortPlot.scales.x.min, shortPlot.scales.x.max]).toEqual([0, 10]);
+  expect(short.zoomedInto()).toBeNull();
+  long.destroy();
+  shortPlot.setScale("x", { min: 2, max: 4 });
+  await Promise.resolve();
+  expect([longPlot.scales.x.min, longPlot.scales.x.max]).toEqual([0, 20]);
+});

@@ -1,5 +1,6 @@
 import uPlot from "uplot";
 import { themeColour } from "./colours";
+import { joinGroup, zoomGroup, type Linked } from "./linked";
 import { axis, uBands, uSeries } from "./options";
 import type { PlotProps } from "./props";
 import { readout } from "./readout";
@@ -9,8 +10,9 @@ import { isAllOf, rangeAfter, zoomed, type Range } from "./zoom";
 const kDotsEdge = 0.02;
 
 /** The uPlot of a <Plot>: it draws again from all the data whenever the range of x changes. */
-export class Drawing {
+export class Drawing implements Linked {
   private readonly plot: uPlot;
+  private readonly leaveGroup: () => void;
   private readonly observer: ResizeObserver;
   private all: Range;
   private shown: Range;
@@ -41,6 +43,7 @@ export class Drawing {
       bands: uBands(series, columns.at),
       cursor: {
         drag: { x: true, y: false, setScale: true },
+        bind: { dblclick: () => null },
         points: { size: 6 },
         ...(syncKey ? { sync: { key: syncKey, setSeries: false } } : {}),
       },
@@ -52,13 +55,15 @@ export class Drawing {
     };
     this.plot = new uPlot(options, columns.data as uPlot.AlignedData, place);
     this.show(first);
-    this.plot.over.addEventListener("dblclick", () => this.show(this.all));
+    this.leaveGroup = syncKey ? joinGroup(syncKey, this) : () => undefined;
+    this.plot.over.addEventListener("dblclick", () => this.zoom(this.all));
     this.plot.over.addEventListener("click", () => this.picked());
     this.observer = new ResizeObserver(() => this.plot.setSize(this.size()));
     this.observer.observe(place);
   }
 
   destroy(): void {
+    this.leaveGroup();
     this.observer.disconnect();
     this.plot.destroy();
   }
@@ -74,8 +79,18 @@ export class Drawing {
 
   key(key: string): boolean {
     const next = zoomed(this.shown, this.all, key, this.props().logX ?? false);
-    if (next) this.show(next);
+    if (next) this.zoom(next);
     return next !== null;
+  }
+
+  followZoom(range: Range | null): void {
+    const isOut = range !== null && (range.min >= this.all.max || range.max <= this.all.min);
+    this.show(range === null || isOut ? this.all : range);
+  }
+
+  /** Draws marks and cursors again. */
+  redraw(): void {
+    this.plot.redraw(false);
   }
 
   /** The range of x that is shown. */
@@ -86,6 +101,13 @@ export class Drawing {
   /** The range of x that is zoomed into; null if all is shown. */
   zoomedInto(): Range | null {
     return isAllOf(this.shown, this.all) ? null : this.shown;
+  }
+
+  /** What the user zooms to, in all plots of the group. */
+  private zoom(range: Range): void {
+    this.show(range);
+    const { syncKey } = this.props();
+    if (syncKey) zoomGroup(syncKey, this, this.zoomedInto());
   }
 
   /** uPlot's own scale follows later where it is set outside of a batch: what is shown is kept here. */
@@ -104,7 +126,9 @@ export class Drawing {
   /** After a drag of the user, or what show() has set itself. */
   private rangeChanged(): void {
     const { min, max } = this.plot.scales.x!;
-    if (min != null && max != null) this.show({ min, max });
+    if (min == null || max == null) return;
+    if (min !== this.shown.min || max !== this.shown.max) this.zoom({ min, max });
+    else this.show(this.shown);
   }
 
   private cursorMoved(): void {
@@ -127,7 +151,9 @@ export class Drawing {
     ctx.textAlign = "left";
     ctx.textBaseline = "alphabetic";
     ctx.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
-    for (const mark of this.props().marks ?? []) {
+    const cursors = this.props().cursors;
+    const measuring = cursors ? [{ x: cursors.a, label: "A" }, { x: cursors.b, label: "B" }] : [];
+    for (const mark of [...(this.props().marks ?? []), ...measuring]) {
       const left = plot.valToPos(mark.x, "x", true);
       if (left < bbox.left || left > bbox.left + bbox.width) continue;
       ctx.beginPath();

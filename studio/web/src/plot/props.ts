@@ -1,3 +1,4 @@
+import type { Cursors } from "./measure";
 import type { AxisWords } from "./options";
 import type { Series } from "./series";
 
@@ -12,7 +13,7 @@ export interface PlotProps {
   yAxis: AxisWords;
   logX?: boolean;
   logY?: boolean;
-  /** Plots with the same key share the cursor. */
+  /** Plots with the same key share the cursor, the zoom and the measuring cursors. */
   syncKey?: string;
   /** Fixed range of y; without it what is shown fits. */
   yRange?: [number, number];
@@ -20,6 +21,8 @@ export interface PlotProps {
   yAxisRoom_px?: number;
   /** Upright lines with words, at values of x. */
   marks?: readonly { x: number; label: string }[];
+  /** Measuring cursors, drawn as marks; a <Plot> sets them itself. */
+  cursors?: Cursors | null;
   /** x under the cursor, or null. */
   onCursor?(x: number | null): void;
   /** A click, at this x. */
