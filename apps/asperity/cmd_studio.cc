@@ -21,6 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The documents as a site: of an installed program share/doc/asperity/html, of one that was built build/site.
+fs::path documents_folder() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path installed = folder.parent_path() / "share" / "doc" / "asperity" / "html";
+  if (error || fs::is_directory(installed, error)) return error ? fs::path() : installed;
+  return folder.parent_path().parent_path() / "site";
+}
+
 class StudioCommand : public Command {
  public:
   explicit StudioCommand(Parser& root)
@@ -69,6 +78,8 @@ class StudioCommand : public Command {
     config_.server.tls_certificate = certificate_;
     config_.server.tls_key = key_;
     config_.notice = [](const std::string& sentence) { print_error(sentence); };
+    config_.server.documents = documents_folder();
+    config_.recent = studio::recent_projects_file();
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
     std::optional<studio::OpenedBrowser> browser;

@@ -30,7 +30,9 @@ std::unique_ptr<Command> make_studio(Parser& root);
 std::unique_ptr<Command> make_track(Parser& root);
 
 // The commands below `asperity study`.
+std::unique_ptr<Command> make_study_plan(Parser& study);
 std::unique_ptr<Command> make_study_summarize(Parser& study);
+std::unique_ptr<Command> make_study_table(Parser& study);
 
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(Parser& texture);

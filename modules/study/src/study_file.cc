@@ -14,7 +14,8 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kLongestText = 500, kLongestName = 60, kLongestCode = 40, kLongestFile = 300, kMostStimuli = 32;
+constexpr std::size_t kLongestText = 500, kLongestConsent = 4000, kLongestName = 60, kLongestCode = 40,
+                      kLongestFile = 300, kMostStimuli = 32;
 constexpr std::uint64_t kLargestWhole = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kDeepest = 4;
 
@@ -100,6 +101,7 @@ Json study_json(const Study& study) {
   out["question"] = study.question;
   out["stimuli"] = study.stimuli;
   out["object"] = study.object;
+  out["consent"] = study.consent;
   for (const ConfigField& field : list_fields("", copy)) put_field(out, field);
   out["presentation"]["device"] = study.presentation.device;
   return out;
@@ -119,6 +121,8 @@ Study read_study(const Json& value, const std::string& where) {
       out.question = text_of(where, key, each, kLongestText);
     } else if (key == "object") {
       out.object = text_of(where, key, each, kLongestText);
+    } else if (key == "consent") {
+      out.consent = text_of(where, key, each, kLongestConsent);
     } else if (key == "stimuli") {
       out.stimuli = stimuli_of(where, each);
     } else if (key == "staircase" || key == "presentation") {

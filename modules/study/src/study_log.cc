@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -21,14 +22,20 @@ namespace asperity {
 
 namespace {
 
-constexpr std::string_view kMagic = "# asperity.study_log 1 ";
-constexpr std::string_view kColumns =
-    "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,date\n";
+constexpr std::array<std::string_view, 2> kMagics{"# asperity.study_log 1 ", "# asperity.study_log 2 "};
+constexpr std::array<std::string_view, 2> kColumns{
+    "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,date\n",
+    "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,"
+    "touch_left_s,touch_right_s,force_left_N,force_right_N,date\n"};
+
+std::size_t index_of(int version) { return static_cast<std::size_t>(version - 1); }
 constexpr double kSameLevel = 1e-9;  // of itself: another machine's exp and log
 constexpr int kMostRuns = 1'000'000;
 
 // Whole milliseconds: the quotient is the number nearest to its three decimals, so no more are written.
 std::string seconds_text(double seconds) { return number_text(std::round(1e3 * seconds) / 1e3); }
+
+std::string force_text(double force_N) { return number_text(std::round(1e3 * force_N) / 1e3); }
 
 std::string answer_field(const Study& study, int value) {
   if (study.method == StudyMethod::kRating) return std::to_string(value);
@@ -75,8 +82,11 @@ std::vector<std::uint32_t> crcs_of(const Json& value, const Study& study, const 
 // The session before its first row, and the check sums of its textures.
 StudyLog log_of(std::string_view text, const std::string& name) {
   if (text.empty()) throw Error(name + ": is empty");
-  if (!text.starts_with(kMagic)) throw Error(name + ":1: is not a log of a study of version 1");
-  const Json head = parse_study_text(text.substr(kMagic.size(), text.find('\n') - kMagic.size()), name + ":1");
+  int version = kStudyLogVersion;
+  while (version > 0 && !text.starts_with(kMagics.at(index_of(version)))) --version;
+  if (version == 0) throw Error(name + ":1: is not a log of a study of version 1 or 2");
+  const std::size_t begin = kMagics.at(index_of(version)).size();
+  const Json head = parse_study_text(text.substr(begin, text.find('\n') - begin), name + ":1");
   const bool has_crcs = head.is_object() && head.contains(kCrcs);
   if (!head.is_object() || head.size() != (has_crcs ? 4 : 3) || !head.contains("study") ||
       !head.contains("participant") || !head.contains("run") || !head["participant"].is_string() ||
@@ -90,6 +100,7 @@ StudyLog log_of(std::string_view text, const std::string& name) {
           has_crcs ? crcs_of(head[kCrcs], study, name) : std::vector<std::uint32_t>(),
           0.0,
           0,
+          version,
           {}};
 }
 
@@ -97,6 +108,18 @@ double time_of(const CsvReader& rows, std::size_t column) {
   const double value = rows.number(column);
   if (!(value >= 0.0 && value < 1e9)) rows.fail(column, "is not a time in seconds");
   return value;
+}
+
+double force_of(const CsvReader& rows, std::size_t column) {
+  const double value = rows.number(column);
+  if (!(value >= 0.0 && value < 1e6)) rows.fail(column, "is not a force in newtons");
+  return value;
+}
+
+std::array<TileTouch, 2> touches_of(const CsvReader& rows, int version) {
+  if (version < 2) return {};
+  return {TileTouch{time_of(rows, rows.require("touch_left_s")), force_of(rows, rows.require("force_left_N"))},
+          TileTouch{time_of(rows, rows.require("touch_right_s")), force_of(rows, rows.require("force_right_N"))}};
 }
 
 void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
@@ -134,7 +157,7 @@ void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
     } else if (rows.cell(answer) != "left") {
       rows.fail(answer, "is neither left nor right");
     }
-    session.give(value, time_of(rows, response), log.since_begin_s);
+    session.give(value, time_of(rows, response), log.since_begin_s, touches_of(rows, log.version));
   }
 }
 
@@ -150,10 +173,12 @@ std::string format_log_head(const StudySession& session, const std::vector<std::
   head["participant"] = session.participant();
   head["run"] = session.run();
   head[kCrcs] = crcs_json(session.study(), textures_crc32);
-  return std::string(kMagic) + head.dump() + '\n' + std::string(kColumns);
+  const std::size_t newest = index_of(kStudyLogVersion);
+  return std::string(kMagics.at(newest)) + head.dump() + '\n' + std::string(kColumns.at(newest));
 }
 
-std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date) {
+std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date,
+                              int version) {
   std::string out = "answer," + trial_cells(session, answer.trial) + ',';
   if (answer.trial.level) out += number_text(*answer.trial.level);
   out += ',' + answer_field(session.study(), answer.value) + ',';
@@ -163,13 +188,17 @@ std::string format_answer_row(const StudySession& session, const StudyAnswer& an
     out += ',';
   }
   out += ',' + seconds_text(answer.response_s) + ',' + seconds_text(answer.since_begin_s) + ',';
+  if (version >= 2) {
+    for (const TileTouch& touch : answer.touches) out += seconds_text(touch.touch_s) + ',';
+    for (const TileTouch& touch : answer.touches) out += force_text(touch.force_N) + ',';
+  }
   out.append(date);
   return out + '\n';
 }
 
-std::string format_taken_back_row(int trial, double since_begin_s, std::string_view date) {
-  return "taken_back," + std::to_string(trial) + ",,,,,,,,,,," + seconds_text(since_begin_s) + ',' + std::string(date) +
-         '\n';
+std::string format_taken_back_row(int trial, double since_begin_s, std::string_view date, int version) {
+  return "taken_back," + std::to_string(trial) + ",,,,,,,,,,," + seconds_text(since_begin_s) +
+         (version >= 2 ? ",,,,," : ",") + std::string(date) + '\n';
 }
 
 StudyLog parse_study_log(std::string_view text, const std::string& name) {
@@ -179,7 +208,8 @@ StudyLog parse_study_log(std::string_view text, const std::string& name) {
   CsvReader rows(text, name);
   std::string columns;
   for (const std::string& column : rows.columns()) columns += (columns.empty() ? "" : ",") + column;
-  if (columns + '\n' != kColumns) throw Error(name + ":2: does not have the columns of a study's log");
+  if (columns + '\n' != kColumns.at(index_of(out.version)))
+    throw Error(name + ":2: does not have the columns of a study's log");
   follow_rows(out, rows, name);
   out.whole_bytes = text.rfind('\n') + 1;
   if (rows.truncated()) {

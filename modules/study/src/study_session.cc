@@ -49,7 +49,8 @@ void StudySession::go_on() {
   trial_ = trial;
 }
 
-const StudyAnswer& StudySession::give(int value, double response_s, double since_begin_s) {
+const StudyAnswer& StudySession::give(int value, double response_s, double since_begin_s,
+                                      const std::array<TileTouch, 2>& touches) {
   if (!trial_) throw Error("all trials are answered");
   const bool rating = study_.method == StudyMethod::kRating;
   if (value < (rating ? kLowestRating : 0) || value > (rating ? kHighestRating : 1)) {
@@ -60,6 +61,7 @@ const StudyAnswer& StudySession::give(int value, double response_s, double since
   answer.value = value;
   answer.response_s = response_s;
   answer.since_begin_s = since_begin_s;
+  answer.touches = touches;
   if (trial_->track > 0) {
     answer.correct = (value == 1) == trial_->comparison_right;
     answer.reversal = tracks_[static_cast<std::size_t>(trial_->track - 1)].push(answer.correct);

@@ -3,6 +3,7 @@
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
+#include "document_answer.h"
 #include "secret.h"
 
 namespace asperity::studio {
@@ -119,6 +120,7 @@ HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
     answer.headers.emplace_back("Upgrade", "websocket");
     return answer;
   }
+  if (path == "/docs" || path.starts_with("/docs/")) return answer_document(path, site.documents);
   return answer_asset(request, path, site);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct Site {
   Sessions* sessions = nullptr;  // not null
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
+  std::filesystem::path documents = {};                      // the documents' folder (WebServerConfig)
   std::function<std::string(std::string_view gzip)> unpack;  // for who takes no gzip
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace asperity::studio {
 
-// All pages, in the order in which they hear of things.
-std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened);
+// All pages, in the order in which they hear of things. `recent` is as of StudioConfig.
+std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened,
+                                              const std::filesystem::path& recent);
 
 }  // namespace asperity::studio

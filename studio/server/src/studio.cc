@@ -8,10 +8,12 @@
 
 #include "answer_control.h"
 #include "asperity/base/host_clock.h"
+#include "asperity/session/utc_now.h"
 #include "asperity/studio/calls.h"
 #include "control_socket.h"
 #include "file_saver.h"
 #include "folder_lock.h"
+#include "home/recent_projects.h"
 #include "inbox.h"
 #include "losses.h"
 #include "pages.h"
@@ -32,7 +34,7 @@ class Studio {
       : config_(config),
         project_(config.folder),
         document_(project_.folder() / kDocumentFile),
-        server_(WebServer::start(config.server, events())),
+        server_(start_server()),
         jobs_(std::make_unique<Jobs>(*server_, [this](Inbox::Work work) { inbox_.post(std::move(work)); })),
         shared_{*server_,
                 project_,
@@ -42,7 +44,7 @@ class Studio {
                 is_this_machine_only(config.server.host) || config.remote_force,
                 [this](Inbox::Work work) { inbox_.post(std::move(work)); },
                 config.feel},
-        pages_(make_pages(shared_, config.open)),
+        pages_(make_pages(shared_, config.open, config.recent)),
         saver_(document_.file(),
                [this](std::string fault) { inbox_.post([this, fault = std::move(fault)] { cannot_save(fault); }); }) {
     shared_.report_loss = [this](const std::string& sentence) { losses_.add(sentence); };
@@ -60,6 +62,7 @@ class Studio {
     for (const auto& page : pages_) page->start();
     for (const std::string& warning : server_->warnings()) notice(warning);
     open_control();
+    remember();
   }
 
   ~Studio() {
@@ -110,6 +113,29 @@ class Studio {
  private:
   void notice(const std::string& sentence) const {
     if (config_.notice) config_.notice(sentence);
+  }
+
+  // At the port of the last studio in this folder, so that pages which are open find this one; at another if that is
+  // taken by now.
+  std::unique_ptr<WebServer> start_server() {
+    WebServerConfig server = config_.server;
+    if (server.port != 0) return WebServer::start(server, events());
+    server.port = remembered_port(config_.recent, project_.folder().string());
+    try {
+      return WebServer::start(server, events());
+    } catch (const Error&) {
+      if (server.port == 0) throw;
+      return WebServer::start(config_.server, events());
+    }
+  }
+
+  // Without it the next start has another port and one recent project is missing.
+  void remember() {
+    try {
+      add_recent_project(config_.recent, {project_.folder().string(), utc_now(), server_->port()});
+    } catch (const Error& error) {
+      notice("the list of recent projects cannot be written: " + std::string(error.what()));
+    }
   }
 
   // Without a place for its socket the studio runs all the same.

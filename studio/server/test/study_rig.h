@@ -73,8 +73,25 @@ class StudyRig {
     EXPECT_EQ(ask("study.touch", {{"on", true}}).error, "");
     EXPECT_TRUE(pump([&] { return session()["ready"].get<bool>(); }));
   }
+  // Presses into one tile until that counts as touched.
+  void press(bool right) {
+    const double tile_m = 0.030, gap_m = 0.004;  // the defaults of StudyPresentation
+    const double x_m = gap_m + (right ? 1.5 * tile_m + gap_m : 0.5 * tile_m);
+    pointing = true;
+    pointer_m = {x_m, 0.019, 0.004};
+    const std::int64_t until_ns = host_now_ns() + 200'000'000;
+    EXPECT_TRUE(pump([&] { return host_now_ns() > until_ns; }));
+    pointer_m.z() = -0.004;
+    EXPECT_TRUE(pump([&] { return session()[right ? "touched_right" : "touched_left"].get<bool>(); }));
+  }
+  // Both tiles, or the only one of a rating.
+  void press_all() {
+    press(false);
+    if (session()["method"] != "rating") press(true);
+  }
   FakeHub::Answer answer(int value) {
     EXPECT_TRUE(pump([&] { return session()["ready"].get<bool>(); }));
+    press_all();
     return ask("study.answer", {{"trial", session()["trial"]}, {"answer", value}});
   }
 

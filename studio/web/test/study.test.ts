@@ -25,6 +25,7 @@ const study = (changes: Partial<Study> = {}): Study => ({
   question: "?",
   stimuli: ["a.texture.json", "b.png", "c.pgm"],
   object: "",
+  consent: "",
   method: "pairs",
   repetitions: 2,
   seed: 1,
@@ -47,6 +48,9 @@ const session = (changes: Partial<Session> = {}): Session => ({
   touching: false,
   ready: false,
   touched: false,
+  touched_left: false,
+  touched_right: false,
+  may_answer: false,
   may_take_back: false,
   ...changes,
 });
@@ -96,8 +100,10 @@ describe("a session", () => {
     expect(adviceOf(session(), false)).toBe("Press Space to touch.");
     expect(adviceOf(session({ touching: true }), true)).toMatch(/until the textures are ready/);
     expect(adviceOf(session({ touching: true }), false)).toMatch(/does not have the force/);
-    expect(adviceOf(session({ touching: true, ready: true, touched: true }), false)).toBe("Touch both, then answer with 1 or 2.");
-    expect(adviceOf(session({ touched: true, method: "rating" }), false)).toMatch(/again, or answer with 1 to 7/);
+    expect(adviceOf(session({ touching: true, ready: true, touched: true }), false)).toBe("Touch both: press on A and on B.");
+    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_left: true }), false)).toBe("Now press on B, right.");
+    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_left: true, touched_right: true, may_answer: true }), false)).toMatch(/answer with 1 or 2/);
+    expect(adviceOf(session({ touched: true, may_answer: true, method: "rating" }), false)).toMatch(/again, or answer with 1 to 7/);
   });
 
   it("has no force between two trials, and says so", () => {

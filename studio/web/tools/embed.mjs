@@ -1,5 +1,5 @@
-// node embed.mjs APP REPORT OUT.cc: the built app, compressed, and the report's script and style as C++ text that
-// implements asperity/web/assets.h. The same files give the same text.
+// node embed.mjs APP REPORT OUT.cc [PATH=FILE…]: the built app, compressed, and the report's script and style as C++ text that
+// implements asperity/web/assets.h; further files, as they are, under their paths. The same files give the same text.
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { extname, join, relative, sep } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -13,6 +13,8 @@ const types = {
   ".png": "image/png",
   ".ico": "image/x-icon",
   ".woff2": "font/woff2",
+  ".csv": "text/csv; charset=utf-8",
+  ".txt": "text/plain; charset=utf-8",
   ".wasm": "application/wasm",
 };
 
@@ -41,7 +43,7 @@ function literal(bytes) {
 // A view of known length: the text has zeros in it.
 const constant = (name, bytes) => `constexpr char ${name}[] =\n${literal(bytes)};\nconstexpr std::string_view ${name}_view(${name}, ${bytes.length});\n`;
 
-const [app, report, out] = process.argv.slice(2);
+const [app, report, out, ...others] = process.argv.slice(2);
 const assets = files(app)
   .map((file) => {
     const type = types[extname(file)];
@@ -52,6 +54,12 @@ const assets = files(app)
     const compressed = packed.length < plain.length;
     return { path: `/${relative(app, file).split(sep).join("/")}`, type, compressed, bytes: compressed ? packed : plain };
   })
+  .concat(
+    others.map((other) => {
+      const [path, file] = other.split("=");
+      return { path, type: types[extname(path)], compressed: false, bytes: readFileSync(file) };
+    }),
+  )
   .sort((a, b) => (a.path < b.path ? -1 : 1));
 const bytesOf = (name) => readFileSync(join(report, name));
 

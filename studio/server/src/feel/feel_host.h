@@ -7,6 +7,7 @@
 #include "asperity/scene/scene.h"
 #include "asperity/studio/calls.h"
 #include "feel/feel_setup.h"
+#include "feel/tile_touches.h"
 
 namespace asperity::studio {
 
@@ -15,6 +16,7 @@ struct FeelVisit {
   std::uint64_t key = 0;                  // of what is presented; not 0
   FeelSetup setup;                        // device and settings
   std::function<Scene(FeelSetup&)> make;  // called on a job's thread
+  std::shared_ptr<TileTouches> touches;   // hears of all ticks while it is presented; may be null
 };
 
 // The one loop that commands forces, lent to another page. Its limit, lease, watchdog and stop are those of the Feel

@@ -47,6 +47,7 @@ struct FeelPage::Opening {
   std::uint64_t revision = 0;                // of the choices
   std::shared_ptr<const LoadedScene> world;  // null: a visitor's scene
   std::uint64_t visit = 0;                   // key of that
+  std::shared_ptr<TileTouches> touches;      // of that
   OpenedFeel opened;
 };
 
@@ -91,6 +92,7 @@ void FeelPage::visit(const Request& request, FeelVisit visit) {
   opening->setup = std::move(visit.setup);
   opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
   opening->visit = visit.key;
+  opening->touches = visit.touches;
   visited_ = true;
   visit_key_ = 0;
   open_in_job(request, opening, kind.title, [opening, make = std::move(visit.make)](const Observer& observer) {
@@ -157,6 +159,7 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
     });
   };
   run_ = std::make_unique<FeelRun>(std::move(parts), shared_.hub, number, log_ended, run_ended);
+  run_->watch(opening.touches);
   run_->permit().limit(largest_force_N());
   state_ = State::kRunning;
   permit(host_now_ns());

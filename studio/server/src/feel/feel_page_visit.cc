@@ -11,6 +11,7 @@ void FeelPage::change_visit(FeelVisit visit) {
   if (!run_ || !visited_ || state_ != State::kRunning) return;
   visit_key_ = 0;
   permit(host_now_ns());
+  run_->watch(nullptr);
   auto result = std::make_shared<PreparedModel>();
   shared_.jobs.start(
       "", "feel.visit",
@@ -21,13 +22,15 @@ void FeelPage::change_visit(FeelVisit visit) {
         setup.config.feel.servo = servo;
         *result = prepare_render_model(scene, info, kind.driven() || kind.name == "mouse", setup.config.feel);
       },
-      [this, result, key = visit.key, number = run_number_, change = ++visit_changes_](std::exception_ptr error) {
+      [this, result, touches = visit.touches, key = visit.key, number = run_number_,
+       change = ++visit_changes_](std::exception_ptr error) {
         if (!run_ || number != run_number_ || change != visit_changes_) return;
         if (error) {
           complain(error);
           return leave();
         }
         run_->swap(std::move(result->model));
+        run_->watch(touches);
         visit_key_ = key;
         held_until_ns_ = host_now_ns() + kHold_ns;
         send_status();

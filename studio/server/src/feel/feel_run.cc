@@ -28,6 +28,16 @@ FeelOutcome FeelRun::take_outcome() {
   return std::move(outcome_);
 }
 
+void FeelRun::watch(std::shared_ptr<TileTouches> touches) {
+  const std::lock_guard guard(watch_mutex_);
+  touches_ = std::move(touches);
+}
+
+void FeelRun::note_touch(const ServoTick& tick) {
+  const std::lock_guard guard(watch_mutex_);
+  if (touches_) touches_->add(tick);
+}
+
 void FeelRun::run(Hub& hub, std::uint64_t number) {
   try {
     std::optional<ForceHold> hold;
@@ -39,6 +49,7 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
           outcome_.statistics.add(tick);
           stream.add(tick);
           log_.add(tick);
+          note_touch(tick);
         },
         &render_step, &permit_);
     parts_.device->close();

@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -16,6 +17,7 @@
 #include "asperity/session/run_evidence.h"
 #include "asperity/studio/hub.h"
 #include "feel/run_log.h"
+#include "feel/tile_touches.h"
 
 namespace asperity::studio {
 
@@ -55,6 +57,8 @@ class FeelRun {
   void stop() noexcept { stop_.store(true); }
   // Another scene, while it is touched.
   void swap(std::unique_ptr<const RenderModel> model) { scene_.publish(std::move(model)); }
+  // What hears of the ticks from now on; may be null.
+  void watch(std::shared_ptr<TileTouches> touches);
   // Where the pointer wants the device point; nothing for a device that a hand or a path moves.
   void point(const Eigen::Vector3d& p_world_m) noexcept;
 
@@ -65,12 +69,15 @@ class FeelRun {
 
  private:
   void run(Hub& hub, std::uint64_t number);
+  void note_touch(const ServoTick& tick);
 
   FeelRunParts parts_;
   SnapshotExchange<const RenderModel> scene_;
   ForcePermit permit_;
   std::atomic<bool> stop_{false};
   RunLog log_;
+  std::mutex watch_mutex_;
+  std::shared_ptr<TileTouches> touches_;
   FeelOutcome outcome_;
   std::function<void()> ended_;
   std::thread thread_;

@@ -17,8 +17,10 @@
 #include "config_fields.h"
 #include "scan/bench_source.h"
 #include "scan/hardware_source.h"
+#include "scan/open_scan.h"
 #include "scan/refine_scan.h"
 #include "scan/replay_source.h"
+#include "scan/rescued_scan_calls.h"
 #include "scan/scan_choices.h"
 #include "scan/scan_devices.h"
 #include "scan/scan_session.h"
@@ -102,6 +104,7 @@ class ScanPage : public Page {
       session().restore();
       request.done();
     });
+    rescued_.bind(calls);
     calls.add("scan.profile", [this](const Request& request) { request.answer(session().profile()); });
     calls.add("scan.path", [this](const Request& request) { request.answer(session().path()); });
     calls.add("scan.refined", [this](const Request& request) {
@@ -137,6 +140,7 @@ class ScanPage : public Page {
     automatic_ = choices().automatic;
     shared_.jobs.start_in(
         "project", "", "", [](const Observer&) { remove_stale_temporary_folders(); }, nullptr);
+    rescued_.start();
   }
 
   void stop() override {
@@ -189,7 +193,9 @@ class ScanPage : public Page {
         [this, chosen, recording, waiting, opened](const Observer& observer) {
           waiting->source = open_source(chosen, waiting->config, recording, observer);
           ScanEvents told = events(waiting->name);
+          const std::string name = waiting->name;
           *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), std::move(told));
+          note_open_scan(shared_.project.folder(), name);
         },
         [this, request, opened](std::exception_ptr error) {
           busy_ = false;
@@ -221,7 +227,11 @@ class ScanPage : public Page {
   void finish(const std::shared_ptr<ScanSession>& ending, const std::shared_ptr<bool>& kept, Jobs::Done done) {
     shared_.jobs.start_storing(
         "scan", "Finishing the recording", incomplete(ending->name()),
-        [ending, kept](const Observer&) { *kept = ending->finish(); }, std::move(done));
+        [ending, kept, folder = shared_.project.folder()](const Observer&) {
+          *kept = ending->finish();
+          forget_open_scan(folder);
+        },
+        std::move(done));
   }
 
   static std::string incomplete(const std::string& name) {
@@ -339,6 +349,7 @@ class ScanPage : public Page {
   std::optional<BlockWriter> refined_;
   std::map<std::string, std::string> refined_by_;  // settings
   std::optional<DiscardedScan> discarded_;
+  RescuedScanCalls rescued_{shared_};
   std::int64_t stated_ns_ = 0;
 };
 

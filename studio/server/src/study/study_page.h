@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ class StudyPage : public Page {
   void bind(Document& document, Calls& calls) override;
   void start() override;
   void client_left(ClientId client) override;
+  void tick(std::int64_t now_ns) override;
 
  private:
   enum class Phase { kNone, kReading, kPaused, kRunning, kFinished };
@@ -47,6 +49,9 @@ class StudyPage : public Page {
   void note_row(const std::string& row);
   void follow_touch();
   FeelVisit visit() const;
+  std::array<TileTouch, 2> touches() const;
+  bool is_touched(std::size_t tile) const;
+  bool is_whole_trial_touched() const;
   double response_s(std::int64_t now_ns) const;
   double since_begin_s() const;
   std::string date() const;
@@ -64,6 +69,7 @@ class StudyPage : public Page {
   std::shared_ptr<const std::vector<Texture>> stimuli_;
   std::shared_ptr<StudyLogFile> log_;
   std::string log_name_, last_log_;
+  int log_version_ = kStudyLogVersion;
   double before_s_ = 0.0;  // of the session, when it was opened
   std::int64_t opened_ns_ = 0;
 
@@ -73,6 +79,7 @@ class StudyPage : public Page {
   std::int64_t touch_since_ns_ = 0;     // 0: it cannot be touched now
   double touched_s_ = 0.0;              // before that
   bool touched_ = false;
+  std::shared_ptr<TileTouches> touches_;  // of the trial that is presented
   std::string problem_, hint_;
   Json sent_status_;
 };

@@ -39,6 +39,7 @@ struct StudyPage::Opening {
   std::shared_ptr<StudyLogFile> log;
   Stimuli stimuli;
   double before_s = 0.0;
+  int version = kStudyLogVersion;
   std::string problem;
 
   void open_new() {
@@ -84,6 +85,7 @@ struct StudyPage::Opening {
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);
     log = std::make_shared<StudyLogFile>(StudyLogFile::open(file, read.whole_bytes));
     before_s = read.since_begin_s;
+    version = read.version;
     if (!read.problems.empty()) problem = read.problems.front().message;
     session = std::move(read.session);
   }
@@ -138,6 +140,9 @@ void StudyPage::begin(const Request& request) {
   auto opening = std::make_shared<Opening>(shared_.project);
   opening->study = study();
   opening->participant = shared_.document.section("study").value("participant", "");
+  if (!opening->study.consent.empty() && !(request.has("consented") && request.flag("consented"))) {
+    throw Advice("the participant has not agreed", "Show the consent text, and begin when the participant agrees.");
+  }
   if (opening->participant.empty()) {
     throw Advice("the participant has no code", "Enter a code such as p01, not a name.");
   }
@@ -179,6 +184,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
         stimuli_ = std::make_shared<const std::vector<Texture>>(std::move(opening->stimuli.textures));
         log_ = std::move(opening->log);
         log_name_ = opening->name;
+        log_version_ = opening->version;
         before_s_ = opening->before_s;
         opened_ns_ = host_now_ns();
         problem_ = opening->problem;
@@ -197,6 +203,11 @@ void StudyPage::present() {
   touch_since_ns_ = 0;
   touched_s_ = 0.0;
   touched_ = false;
+  touches_.reset();
+  if (session_->trial()) {
+    touches_ = std::make_shared<TileTouches>(tile_of_triangle(session_->study()),
+                                             session_->study().presentation.least_force_N);
+  }
   if (!session_->trial()) {
     phase_ = Phase::kFinished;
     why_.clear();
@@ -211,6 +222,7 @@ FeelVisit StudyPage::visit() const {
   FeelVisit out;
   out.key = presented_;
   out.setup = study_setup(session_->study(), start_);
+  out.touches = touches_;
   out.make = [study = session_->study(), stimuli = stimuli_, trial = *session_->trial()](FeelSetup&) {
     return make_trial_scene(study, *stimuli, trial);
   };
@@ -263,6 +275,20 @@ void StudyPage::follow_touch() {
   start_touch();
 }
 
+std::array<TileTouch, 2> StudyPage::touches() const {
+  return touches_ ? touches_->touches() : std::array<TileTouch, 2>();
+}
+
+bool StudyPage::is_touched(std::size_t tile) const {
+  const double touch_s = touches().at(tile).touch_s;
+  return touch_s > 0.0 && touch_s >= session_->study().presentation.least_touch_s;
+}
+
+bool StudyPage::is_whole_trial_touched() const {
+  if (!session_->trial() || !is_touched(0)) return false;
+  return session_->trial()->right < 0 || is_touched(1);
+}
+
 double StudyPage::response_s(std::int64_t now_ns) const {
   return touched_s_ + (touch_since_ns_ == 0 ? 0.0 : 1e-9 * static_cast<double>(now_ns - touch_since_ns_));
 }
@@ -278,11 +304,17 @@ void StudyPage::answer(const Request& request) {
   }
   if (!touched_)
     throw Advice("nothing was touched in this trial", "Press Space and touch the surface before you answer.");
+  if (!is_whole_trial_touched()) {
+    throw Advice(session_->trial()->right < 0 ? "the texture was not touched with force"
+                                              : "not both textures were touched with force",
+                 "Press on the surface until its mark is set, then answer.");
+  }
   StudySession next = *session_;
   const std::int64_t value = request.integer("answer");
   if (value < 0 || value > kHighestRating) throw Error(std::to_string(value) + " is not an answer to this trial");
-  note_row(
-      format_answer_row(next, next.give(static_cast<int>(value), response_s(host_now_ns()), since_begin_s()), date()));
+  note_row(format_answer_row(next,
+                             next.give(static_cast<int>(value), response_s(host_now_ns()), since_begin_s(), touches()),
+                             date(), log_version_));
   session_ = std::move(next);
   const int every = session_->study().break_every;
   const bool rest = every > 0 && session_->answers().size() % static_cast<std::size_t>(every) == 0;
@@ -297,7 +329,7 @@ void StudyPage::take_back(const Request& request) {
   }
   StudySession next = *session_;
   next.take_back();
-  note_row(format_taken_back_row(next.trial()->number, since_begin_s(), date()));
+  note_row(format_taken_back_row(next.trial()->number, since_begin_s(), date(), log_version_));
   session_ = std::move(next);
   if (phase_ == Phase::kFinished || why_ == "break") {
     phase_ = Phase::kRunning;

@@ -47,6 +47,15 @@ void change_texture(Texture& texture, const Study& study, double level, bool com
   }
 }
 
+// The trial's tiles without textures: all trials of a study have this mesh.
+Scene blank_scene(const Study& study) {
+  Texture blank;
+  Fourier1d flat;
+  flat.a_m = flat.b_m = {0.0};
+  blank.model = flat;
+  return make_height_map_viewer(std::vector<Texture>(tiles_of(study), blank), viewer_of(study));
+}
+
 }  // namespace
 
 void scale_texture(Texture& texture, double factor) {
@@ -81,13 +90,18 @@ Scene make_trial_scene(const Study& study, const std::vector<Texture>& stimuli, 
   return make_height_map_viewer(tiles, viewer_of(study));
 }
 
+std::vector<int> tile_of_triangle(const Study& study) {
+  const MeshFile mesh = blank_scene(study).objects.front().mesh;
+  std::vector<int> out;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    out.push_back(mesh.haptic[k].texture > 0 ? static_cast<int>(mesh.haptic[k].texture) - 1 : -1);
+  }
+  return out;
+}
+
 BlockWriter make_trial_block(const Study& study) {
-  Texture blank;
-  Fourier1d flat;
-  flat.a_m = flat.b_m = {0.0};
-  blank.model = flat;
-  const std::vector<Texture> tiles(tiles_of(study), blank);
-  const Scene scene = make_height_map_viewer(tiles, viewer_of(study));
+  const std::size_t tiles = tiles_of(study);
+  const Scene scene = blank_scene(study);
   const MeshFile& mesh = scene.objects.front().mesh;
   std::vector<float> vertices_m;
   std::vector<std::uint32_t> triangles;
@@ -103,7 +117,7 @@ BlockWriter make_trial_block(const Study& study) {
   block.head()["objects"] = 1;
   block.head()["indices"] = Json::array();
   Json heads = Json::array();
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
+  for (std::size_t k = 0; k < tiles; ++k) {
     Json head;
     head["name"] = kLabels.at(k);
     for (const char* nothing : {"highest_m", "x0_m", "y0_m", "width_m", "height_m"}) head[nothing] = 0.0;

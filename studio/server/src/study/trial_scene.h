@@ -18,6 +18,9 @@ FeelSetup study_setup(const Study& study, const FeelConfig& start);
 // B.
 Scene make_trial_scene(const Study& study, const std::vector<Texture>& stimuli, const Trial& trial);
 
+// For each triangle of a trial's scene: the tile that it belongs to, 0 (left) or 1 (right), or -1.
+std::vector<int> tile_of_triangle(const Study& study);
+
 // What the browser draws of any trial of a study, and all that it is told: the tiles, without heights.
 BlockWriter make_trial_block(const Study& study);
 

@@ -10,6 +10,8 @@ export interface Adding {
   fraction: number;
 }
 
+/** Whether the dialog is open. */
+export const adds = signal(false);
 export const adding = signal<Adding | null>(null);
 export const added = signal<Placed[]>([]);
 let stopped = false;

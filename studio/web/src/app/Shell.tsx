@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { AddFiles } from "../add/AddFiles";
-import { adding } from "../add/adding";
+import { adding, adds } from "../add/adding";
 import { link } from "../net/connection";
 import { ForceStatus } from "../pages/feel/ForceStatus";
 import { about } from "../state/about";
@@ -10,9 +10,12 @@ import { IconButton } from "../ui/IconButton";
 import { useKeys } from "../ui/keys";
 import { Lamp, type LampState } from "../ui/Lamp";
 import { Toasts } from "../ui/Toasts";
+import { helpPage } from "../ui/helpPage";
 import { Help } from "./Help";
 import { JobBar } from "./JobBar";
 import { PageFrame } from "./PageFrame";
+import { Palette } from "./Palette";
+import { Rescued } from "./Rescued";
 import { go } from "./go";
 import { route, routes } from "./routes";
 import { Sessions } from "./Sessions";
@@ -30,18 +33,20 @@ const LINKS: Record<string, [LampState, string]> = {
 export function Shell() {
   const [help, setHelp] = useState(false);
   const [sessions, setSessions] = useState(false);
-  const [adds, setAdds] = useState(false);
+  const [palette, setPalette] = useState(false);
   useKeys(
     [
       { key: "ctrl+z", label: "undo", run: () => undoLabel.value && undo() },
       { key: "ctrl+shift+z", label: "redo", run: () => redoLabel.value && redo() },
-      { key: "o", label: "add files", run: () => setAdds(true) },
+      { key: "o", label: "add files", run: () => (adds.value = true) },
+      { key: "ctrl+k", label: "find a page, an action, a file or a document", always: true, run: () => setPalette(true) },
       { key: "?", label: "show the keys", run: () => setHelp(true) },
       ...routes.map(({ id, title, key }) => ({ key: `g ${key}`, label: `go to ${title}`, run: () => go(id) })),
     ],
     "Everywhere",
   );
   useFocusOnPage();
+  useEffect(() => void (helpPage.value = route.value.help ?? "studio.html"), [route.value.id]);
   const [lamp, word] = LINKS[link.value]!;
   return (
     <div class="shell">
@@ -61,7 +66,8 @@ export function Shell() {
           <ForceStatus />
         </div>
         <div class="shell-tools">
-          <IconButton icon="plus" label={adding.value ? "Files are being added" : "Add files"} onClick={() => setAdds(true)} testId="add" />
+          <IconButton icon="plus" label={adding.value ? "Files are being added" : "Add files"} onClick={() => (adds.value = true)} testId="add" />
+          <IconButton icon="find" label="Find (Ctrl K)" onClick={() => setPalette(true)} testId="find" />
           <UndoButton icon="undo" word="Undo" of={undoLabel.value} onClick={undo} />
           <UndoButton icon="redo" word="Redo" of={redoLabel.value} onClick={redo} />
           <IconButton icon={theme.value} label={`Theme: ${theme.value}`} onClick={nextTheme} testId="theme" />
@@ -76,6 +82,7 @@ export function Shell() {
             : "The server does not know this browser. Open the address that asperity studio printed last. Your choices are kept."}
         </p>
       )}
+      <Rescued />
       <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>
         <PageFrame key={route.value.id} route={route.value} />
       </main>
@@ -92,7 +99,8 @@ export function Shell() {
       </footer>
       <Toasts />
       <WaitingKey />
-      <AddFiles open={adds} onClose={() => setAdds(false)} onOpen={() => setAdds(true)} />
+      <AddFiles open={adds.value} onClose={() => (adds.value = false)} onOpen={() => (adds.value = true)} />
+      <Palette open={palette} onClose={() => setPalette(false)} />
       <Help open={help} onClose={() => setHelp(false)} />
       <Sessions open={sessions} onClose={() => setSessions(false)} />
     </div>

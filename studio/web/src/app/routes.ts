@@ -10,16 +10,27 @@ export interface Route {
   purpose: string;
   /** The key that opens it, after "g". */
   key: string;
+  /** Its page of the documents; without it that of the studio. */
+  help?: string;
   /** Its code, loaded when it is first shown. */
   load(): Promise<{ default: ComponentType }>;
 }
 
 export const routes: readonly Route[] = [
   {
+    id: "home",
+    title: "Home",
+    purpose: "Begin: the virtual bench, the sample project, your files, and recent projects.",
+    key: "h",
+    help: "studio.html",
+    load: () => import("../pages/home/HomePage"),
+  },
+  {
     id: "scan",
     title: "Scan",
     purpose: "Record a surface with the probe and see its profile grow.",
     key: "s",
+    help: "studio-scan.html",
     load: () => import("../pages/scan/ScanPage"),
   },
   {
@@ -27,6 +38,7 @@ export const routes: readonly Route[] = [
     title: "Process",
     purpose: "From recordings to profile, spectrum, roughness and compliance.",
     key: "p",
+    help: "studio-process.html",
     load: () => import("../pages/process/ProcessPage"),
   },
   {
@@ -34,6 +46,7 @@ export const routes: readonly Route[] = [
     title: "Align",
     purpose: "Register a scan path to a mesh.",
     key: "a",
+    help: "studio-align.html",
     load: () => import("../pages/align/AlignPage"),
   },
   {
@@ -41,6 +54,7 @@ export const routes: readonly Route[] = [
     title: "Paint",
     purpose: "Draw textures onto a mesh.",
     key: "t",
+    help: "studio-paint.html",
     load: () => import("../pages/paint/PaintPage"),
   },
   {
@@ -48,6 +62,7 @@ export const routes: readonly Route[] = [
     title: "Feel",
     purpose: "Touch the scene with a device or with the mouse.",
     key: "f",
+    help: "studio-feel.html",
     load: () => import("../pages/feel/FeelPage"),
   },
   {
@@ -55,6 +70,7 @@ export const routes: readonly Route[] = [
     title: "Study",
     purpose: "Let people compare and rate textures, blind and in random order, and log their answers.",
     key: "u",
+    help: "studio-study.html",
     load: () => import("../pages/study/StudyPage"),
   },
 ];

@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
+import { documentAddress, helpPage } from "./helpPage";
 import { Icon } from "./Icon";
 
 export interface PanelProps {
@@ -32,7 +33,14 @@ export function Panel({ title, children, actions, collapsible = false, open = tr
             title
           )}
         </h2>
-        {actions && <div class="panel-actions">{actions}</div>}
+        <div class="panel-actions">
+          {actions}
+          {helpPage.value && (
+            <a class="panel-help" href={documentAddress(helpPage.value, title)} target="_blank" rel="noopener" aria-label={`Help: ${title}`} title={`Help: ${title}`}>
+              ?
+            </a>
+          )}
+        </div>
       </header>
       {(shown || !collapsible) && <div class="panel-body">{children}</div>}
     </section>

@@ -30,6 +30,8 @@ struct StudyPresentation {
   double range_mm = 2.5;
   double stiffness_N_per_m = 1000.0;
   double friction = 0.0;
+  double least_force_N = 0.1;
+  double least_touch_s = 0.2;
   TextureForceModel model = TextureForceModel::kAuto;
 
   template <class V>
@@ -39,6 +41,8 @@ struct StudyPresentation {
     v.field("range_mm", range_mm, "black to white, of images, mm", {1e-6, 1000.0});
     v.field("stiffness_N_per_m", stiffness_N_per_m, "where a texture has none, N/m", {1.0, 1e6});
     v.field("friction", friction, "coefficient, where a texture has none", {0.0, 10.0});
+    v.field("least_force_N", least_force_N, "force on the hand that counts as touching, N", {0.0, 10.0});
+    v.field("least_touch_s", least_touch_s, "of touching each texture before an answer is accepted, s", {0.0, 60.0});
     v.choice("model", model, kTextureForceModelNames, "force model; auto: the texture's own");
   }
 };
@@ -50,6 +54,7 @@ struct Study {
   std::string question = "Which one is rougher?";
   std::vector<std::string> stimuli;  // names in the project's folder
   std::string object;                // the real one that ratings compare with
+  std::string consent;               // what participants agree to before the first trial; empty: they are not asked
   int repetitions = 1;
   std::int64_t seed = 1;
   int break_every = 20;  // trials; 0: never

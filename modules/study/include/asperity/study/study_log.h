@@ -15,10 +15,13 @@ inline constexpr std::string_view kStudyLogEnding = ".study.csv";
 inline constexpr std::uint64_t kLargestStudyLog_bytes = std::uint64_t{16} << 20U;
 
 // The text of a log (docs/studio-study.md): its beginning, with the session's study and its textures' check sums in a
-// comment; and its rows, each with its newline.
+// comment; and its rows, each with its newline. Version 2 has times of touch and forces; a log keeps its version.
+inline constexpr int kStudyLogVersion = 2;
 std::string format_log_head(const StudySession& session, const std::vector<std::uint32_t>& textures_crc32);
-std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date);
-std::string format_taken_back_row(int trial, double since_begin_s, std::string_view date);
+std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date,
+                              int version = kStudyLogVersion);
+std::string format_taken_back_row(int trial, double since_begin_s, std::string_view date,
+                                  int version = kStudyLogVersion);
 
 struct StudyLog {
   StudySession session;  // after all rows
@@ -26,6 +29,7 @@ struct StudyLog {
   std::vector<std::uint32_t> textures_crc32;
   double since_begin_s = 0.0;   // of the last row
   std::size_t whole_bytes = 0;  // without a last row that was cut off
+  int version = kStudyLogVersion;
   Problems problems;
 };
 

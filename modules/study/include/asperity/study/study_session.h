@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "asperity/study/staircase.h"
 #include "asperity/study/study.h"
+#include "asperity/study/tile_touch.h"
 #include "asperity/study/trial.h"
 
 namespace asperity {
@@ -17,6 +19,7 @@ struct StudyAnswer {
   bool correct = false, reversal = false;  // of a staircase
   double response_s = 0.0;
   double since_begin_s = 0.0;
+  std::array<TileTouch, 2> touches;  // of the left and the right texture; of a log of version 1 zero
 };
 
 // Which trial is next, from the study, the participant and the answers so far. Pure: no clock, no file.
@@ -39,7 +42,8 @@ class StudySession {
   std::optional<int> planned() const;
 
   // Throws Error for a value that is not an answer to this method, and if no trial is open.
-  const StudyAnswer& give(int value, double response_s, double since_begin_s);
+  const StudyAnswer& give(int value, double response_s, double since_begin_s,
+                          const std::array<TileTouch, 2>& touches = {});
 
   // The last answer can be withdrawn once, until the next one is given.
   bool can_take_back() const { return may_take_back_; }

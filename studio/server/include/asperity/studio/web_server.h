@@ -19,6 +19,8 @@ struct WebServerConfig {
   int max_clients = 64;
   double request_timeout_s = 10.0;  // for a whole request, a handshake and its answer
   double idle_timeout_s = 30.0;     // without a sign of life from a browser, which is asked for one
+  // The documents as a site (scripts/site), shown at /docs/; empty or not there: a page states how to get them.
+  std::filesystem::path documents;
   // PEM files: with them the server speaks https alone, without them http. Both or none.
   std::filesystem::path tls_certificate, tls_key;
 };

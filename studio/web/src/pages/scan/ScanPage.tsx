@@ -8,6 +8,7 @@ import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { CameraImage } from "./CameraImage";
 import { discard, rescan, restore, segment, startOrStop, toggleAuto } from "./commands";
+import { GuidePanel } from "./GuidePanel";
 import { HintsPanel } from "./HintsPanel";
 import { ProfilePlot } from "./ProfilePlot";
 import { RecordPanel } from "./RecordPanel";
@@ -53,7 +54,8 @@ export default function ScanPage() {
       stripHeight="48%"
       side={
         <>
-          <RecordPanel />
+          <GuidePanel />
+<RecordPanel />
           <SourcePanel fields={fields} />
           <TuningPanel fields={fields} />
         </>

@@ -90,17 +90,17 @@ function TrialView({ session }: { session: Session }) {
       <div class={isRating ? "study-answers study-ratings" : "study-answers"} role="group" aria-label={session.question}>
         {isRating ? (
           RATINGS.map((value) => (
-            <Button key={value} onClick={() => answer(value)} disabled={!session.touched} label={`${value} of 7`} testId={`study-answer-${value}`}>
+            <Button key={value} onClick={() => answer(value)} disabled={!session.may_answer} label={`${value} of 7`} testId={`study-answer-${value}`}>
               {value}
             </Button>
           ))
         ) : (
           <>
-            <Button onClick={() => answer(0)} disabled={!session.touched} testId="study-answer-a">
-              <kbd>1</kbd> A, left
+            <Button onClick={() => answer(0)} disabled={!session.may_answer} testId="study-answer-a">
+              <kbd>1</kbd> A, left{session.touched_left && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
             </Button>
-            <Button onClick={() => answer(1)} disabled={!session.touched} testId="study-answer-b">
-              <kbd>2</kbd> B, right
+            <Button onClick={() => answer(1)} disabled={!session.may_answer} testId="study-answer-b">
+              <kbd>2</kbd> B, right{session.touched_right && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
             </Button>
           </>
         )}

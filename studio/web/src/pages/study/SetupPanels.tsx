@@ -31,7 +31,12 @@ const QUESTIONS: Record<Method, string> = {
 export function BeginPanel() {
   const { study, participant } = studySection.value;
   const [typed, setTyped] = useState("");
+  const [asking, setAsking] = useState(false);
   const lack = lackOf(study, participant);
+  const begin = async () => {
+    setAsking(false);
+    await call("study.begin", { consented: study.consent !== "" });
+  };
   return (
     <Panel title="Session" testId="study-session-panel">
       <TextField
@@ -45,7 +50,22 @@ export function BeginPanel() {
         testId="study-participant"
       />
       <p>{trialWords(study)}</p>
-      <Button kind="primary" onClick={() => call("study.begin")} disabled={lack !== ""} hint={lack || undefined} testId="study-begin">
+      <Dialog
+        title="Consent"
+        open={asking}
+        onClose={() => setAsking(false)}
+        actions={
+          <>
+            <Button onClick={() => setAsking(false)}>I do not agree</Button>
+            <Button kind="primary" onClick={begin} testId="study-agree">
+              I agree
+            </Button>
+          </>
+        }
+      >
+        <p>{study.consent}</p>
+      </Dialog>
+      <Button kind="primary" onClick={() => (study.consent === "" ? begin() : setAsking(true))} disabled={lack !== ""} hint={lack || undefined} testId="study-begin">
         Begin
       </Button>
       {lack && <p class="field-hint">{lack}</p>}
@@ -69,6 +89,15 @@ export function QuestionPanel() {
       {study.method === "rating" && (
         <TextField label="The real object" wide value={study.object} placeholder="sandpaper P80" onChange={(text) => attempt(() => setStudy("object", text, "real object"))} testId="study-object" />
       )}
+      <TextField
+        label="Consent text"
+        wide
+        value={study.consent}
+        placeholder="none: participants are not asked"
+        hint="Participants read it and agree before the first trial; the log states the text."
+        onChange={(text) => attempt(() => setStudy("consent", text, "consent text"))}
+        testId="study-consent"
+      />
       {study.method === "staircase" && <StaircaseChoices study={study} />}
       <NumberField label="Repetitions" integer value={study.repetitions} low={1} high={100} onChange={(value) => attempt(() => setStudy("repetitions", value, "repetitions"))} testId="study-repetitions" />
       <NumberField label="Seed of the order" integer value={study.seed} low={0} high={2 ** 53} onChange={(value) => attempt(() => setStudy("seed", value, "seed"))} />

@@ -9,6 +9,8 @@ export interface Study {
   question: string;
   stimuli: string[];
   object: string;
+  /** What participants agree to before the first trial; "": they are not asked. */
+  consent: string;
   method: Method;
   repetitions: number;
   seed: number;
@@ -37,6 +39,11 @@ export interface Session {
   touching: boolean;
   ready: boolean;
   touched: boolean;
+  /** Pressed with force for long enough. */
+  touched_left: boolean;
+  touched_right: boolean;
+  /** All textures of the trial were: an answer is accepted. */
+  may_answer: boolean;
   may_take_back: boolean;
 }
 
@@ -161,14 +168,16 @@ export function progressWords({ trial, of, answers }: Session): string {
   return of === null ? `Trial ${trial}` : `Trial ${trial} of ${of}`;
 }
 
-/** What is to be done now. */
 /** What comes next; `held`: the force is at zero because the textures are being laid. */
 export function adviceOf(session: Session, held: boolean): string {
   const answer = session.method === "rating" ? "answer with 1 to 7" : "answer with 1 or 2";
-  if (!session.touching) return session.touched ? `Press Space to touch again, or ${answer}.` : "Press Space to touch.";
+  if (!session.touching) return session.may_answer ? `Press Space to touch again, or ${answer}.` : "Press Space to touch.";
   if (!session.ready && !held) return "No force is rendered, because this window does not have the force. Take it, then continue.";
   if (!session.ready) return "Please wait until the textures are ready.";
-  return session.method === "rating" ? `Touch the texture and the real object, then ${answer}.` : `Touch both, then ${answer}.`;
+  if (session.method === "rating") return session.may_answer ? `Touch the real object too, then ${answer}.` : "Press on the texture.";
+  if (session.may_answer) return `Both are touched: ${answer}, or continue to touch.`;
+  if (session.touched_left !== session.touched_right) return `Now press on ${session.touched_left ? "B, right" : "A, left"}.`;
+  return "Touch both: press on A and on B.";
 }
 
 const PAUSES: Record<string, string> = {
