@@ -5,8 +5,10 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "asperity/base/folder_content.h"
+#include "asperity/base/nearest_word.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -64,8 +66,11 @@ class ExportCommand : public Command {
     const auto name = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_);
     const auto heights_as = height_file_of(format_);
     if (name == kExportFormatNames.end() && !heights_as) {
-      throw UsageError("--to: '" + printable(format_) +
-                       "' is none of obj, gltf, usda, png, wav, ahap, haps, hjif, x3p, sdf, sdf-binary, gsf, stl");
+      const std::vector<std::string> known{"obj",  "gltf", "usda", "png",        "wav", "ahap", "haps",
+                                           "hjif", "x3p",  "sdf",  "sdf-binary", "gsf", "stl"};
+      const std::string nearest = format_ == "glb" ? "gltf" : nearest_word(format_, known);
+      throw UsageError("--to: '" + printable(format_) + "' is none of " + fmt::format("{}", fmt::join(known, ", ")) +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
     }
     fs::path target = output_;
     if (target.empty()) {

@@ -116,6 +116,7 @@ std::string Parser::unknown_word(const std::string& word) const {
       for (const std::string& name : option.long_names()) known.push_back("--" + name);
   } else {
     for (const auto& below : subcommands_) known.push_back(below->name());
+    if (!parent_) known.emplace_back("help");
   }
   const std::string typed = word.substr(0, word.find('='));
   std::string out = "'" + printable(typed, 60) + "' is ";

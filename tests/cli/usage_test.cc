@@ -112,6 +112,9 @@ TEST(Usage, AMistypedWordNamesTheNearest) {
   EXPECT_THAT(error({"texture", "fitt"}), HasSubstr("did you mean fit?"));
   EXPECT_THAT(error({"roughness", "x", "--lamda-c=0.8mm"}),
               HasSubstr("'--lamda-c' is not an option; did you mean --lambda-c?"));
+  EXPECT_THAT(error({"hlep", "process"}), HasSubstr("did you mean help?"));
+  EXPECT_THAT(error({"export", "t.texture.json", "--to", "glb"}), HasSubstr("did you mean gltf?"));
+  EXPECT_THAT(error({"export", "t.texture.json", "--to", "ussda"}), HasSubstr("did you mean usda?"));
   EXPECT_THAT(error({"inspect", "one", "two"}), HasSubstr("'two' is one argument too many"));
   EXPECT_THAT(error({"wurst"}), testing::Not(HasSubstr("did you mean")));
 }

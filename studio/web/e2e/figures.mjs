@@ -1,5 +1,5 @@
 // How long the studio takes: node figures.mjs BINARY [SECONDS]. From the program's start to the first picture, and, while the bench
-// scans, from the sensor and from the tip's motion to the screen. Prints one line a figure.
+// scans, from the sensor and from the tip's motion to the screen. Prints one line a value.
 import { launch, openPage } from "./lib/browser.mjs";
 import { numberIn } from "./lib/check.mjs";
 import { Projects } from "./lib/project.mjs";

@@ -11,7 +11,7 @@ if (!binary) {
   console.error("usage: node run.mjs BINARY [FLOW…]");
   process.exit(2);
 }
-const kOrder = ["shell", "scan", "process", "align", "paint", "feel", "study", "report"];
+const kOrder = ["shell", "home", "scan", "process", "align", "paint", "feel", "study", "report"];
 const there = readdirSync(new URL("./flows", import.meta.url)).map((file) => basename(file, ".mjs"));
 const names = chosen.length > 0 ? chosen : [...kOrder.filter((name) => there.includes(name)), ...there.filter((name) => !kOrder.includes(name)).sort()];
 

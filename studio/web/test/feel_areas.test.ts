@@ -59,7 +59,7 @@ describe("settings", () => {
 });
 
 describe("the trace over the way", () => {
-  it("has rows only where the tip has moved on, and the newest of them", () => {
+  it("has rows only where the tip has moved, and the newest of them", () => {
     const trace = new WayTrace(3, 0.1);
     trace.append([0, 0.05, 0.1, 0.2], [1, 2, 3, 4]);
     expect(trace.rows()).toEqual({ way_mm: [0, 0.1, 0.2], height_um: [1, 3, 4] });

@@ -44,7 +44,7 @@ test("the first of two keys waits for the second, however long that takes", () =
   const groups = [group("page", "a", "escape"), group("app", "g a", "ctrl+z")];
   expect(meaningOf(groups, "g", "", false)).toEqual({ leader: "g", taken: true });
   expect(meaningOf(groups, "a", "g", false)).toMatchObject({ key: { label: "app g a" }, leader: "" });
-  // Held down, it goes on waiting; a field takes it as a letter.
+  // Held down, it keeps waiting; a field takes it as a letter.
   expect(meaningOf(groups, "g", "g", false)).toEqual({ leader: "g", taken: true });
   expect(meaningOf(groups, "g", "", true)).toEqual({ leader: "", taken: false });
 });

@@ -1,4 +1,4 @@
-// Brings node_modules to what package-lock.json says, and does nothing if it is there already, network or not.
+// Brings node_modules to what package-lock.json states, and does nothing if it is there already, network or not.
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";

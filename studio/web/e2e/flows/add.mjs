@@ -6,7 +6,7 @@ import { open } from "../lib/ui.mjs";
 
 const kGravity_mps2 = 9.80665;
 
-/** A body that turns about z and moves along x: a tracker at 100 Hz in mm, a sensor at 500 Hz in g and degrees. */
+/** A body that rotates about z and moves along x: a tracker at 100 Hz in mm, a sensor at 500 Hz in g and degrees. */
 function motionTables() {
   const poses = ["time [ms];px [mm];py [mm];pz [mm];qw;qx;qy;qz"];
   const sensor = ["time [ms];ax [g];ay [g];az [g];gx [deg/s];gy [deg/s];gz [deg/s]"];
@@ -85,7 +85,7 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       await page.getByTestId("import-name").press("Enter");
       await page.getByTestId("import-write").click();
       await until(() => existsSync(join(folder, "wave", "recording.json")), "the recording");
-      // Its page opens with it; a wave in the air is no surface.
+      // Its page opens with it; a wave in the air is not a surface.
       await page.locator('[aria-current="page"]', { hasText: "Process" }).waitFor();
       await page.getByTestId("scans").getByText("wave").waitFor();
     });

@@ -116,7 +116,7 @@ function middleOf(csv) {
   return columns.map((column) => Number(row[column]));
 }
 
-/** A path beside the tip's, as a table of its own. */
+/** A path next to the tip's, as a table of its own. */
 function beside(csv, away_m) {
   const { rows, columns } = pathOf(csv);
   const points = rows.slice(1).filter((_, index) => index % 10 === 0);

@@ -113,7 +113,7 @@ export default async function feel({ page, browser, openPage, studio, step, fold
     await lamp("in contact");
     await page.mouse.up();
     await lamp("in the air");
-    // A place without a texture has the stiffness of the page.
+    // A position without a texture has the stiffness of the page.
     await press(0.5, 0.4);
     const stiffness = page.getByRole("spinbutton", { name: /^Stiffness/ });
     const before = await settled_N();

@@ -32,7 +32,7 @@ export default async function process_({ page, step, folder, asperity, until, eq
   await step("every view is drawn", async () => {
     for (const name of kTabs) {
       await page.getByRole("tab", { name, exact: true }).click();
-      // A plot, a table, or the words for what is not determined.
+      // A plot, a table, or the words for a value that is not determined.
       await page.getByRole("tabpanel").locator("canvas, table, p").first().waitFor();
     }
     await page.getByTestId("plot-height").waitFor();

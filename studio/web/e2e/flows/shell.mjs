@@ -1,5 +1,5 @@
-// What all pages have in common: going to and fro, keys, themes, a server that ends and comes back, strangers.
-const kPages = ["Scan", "Process", "Align", "Paint", "Feel", "Study"];
+// What all pages have in common: going back and forth, keys, themes, a server that ends and returns, strangers.
+const kPages = ["Home", "Scan", "Process", "Align", "Paint", "Feel", "Study"];
 
 export default async function shell({ page, step, restart, studio, expectComplaints, openPage, browser, equal, ok, until }) {
   const nav = page.getByRole("navigation", { name: "Pages" });
@@ -48,8 +48,8 @@ export default async function shell({ page, step, restart, studio, expectComplai
     equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark", "theme after a reload");
   });
 
-  await step("nothing scrolls or overlaps at 1400 x 860 and 1024 x 700", async () => {
-    for (const [width, height] of [[1400, 860], [1024, 700]]) {
+  await step("nothing scrolls at four sizes, and Stop is in sight", async () => {
+    for (const [width, height] of [[1440, 900], [1024, 700], [768, 1024], [390, 844]]) {
       await page.setViewportSize({ width, height });
       for (const name of kPages) {
         await nav.getByRole("link", { name }).click();
@@ -57,6 +57,8 @@ export default async function shell({ page, step, restart, studio, expectComplai
         await page.locator(".page-wait").waitFor({ state: "detached" });
         const over = await page.evaluate(() => [document.documentElement.scrollWidth - innerWidth, document.documentElement.scrollHeight - innerHeight]);
         ok(over[0] <= 0 && over[1] <= 0, `${name} fits ${width} x ${height}; it is ${over} too large`);
+        const stop = await page.getByTestId("force-stop").boundingBox();
+        ok(stop && stop.x >= 0 && stop.y >= 0 && stop.x + stop.width <= width && stop.y + stop.height <= height, `${name}: Stop is in sight at ${width} x ${height}`);
       }
     }
     await page.setViewportSize({ width: 1400, height: 860 });

@@ -3,7 +3,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { open, type } from "../lib/ui.mjs";
 
-const kColumns = "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,date";
+const kColumns = "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,touch_left_s,touch_right_s,force_left_N,force_right_N,date";
 
 export default async function study({ page, studio, step, restart, folder, asperity, expectComplaints, until, equal, ok, numberIn }) {
   // Where the processor draws, a small window has more pictures a second.
@@ -16,11 +16,31 @@ export default async function study({ page, studio, step, restart, folder, asper
   const ready = () =>
     until(async () => {
       if (await takeForce.isVisible()) await takeForce.click({ timeout: 1000 }).catch(() => {});
-      return page.getByTestId("study-advice").filter({ hasText: "then answer" }).isVisible();
+      return page.getByTestId("study-advice").filter({ hasText: /Touch both|press on|Both are/ }).isVisible();
     }, "a trial that can be touched");
-  const touch = async () => {
+  const begin = async () => {
     await page.keyboard.press("Space");
     await ready();
+  };
+  const kHold_ms = 600;
+  // Each letter is over the middle of its tile.
+  const pressBoth = () =>
+    until(async () => {
+      if (await takeForce.isVisible()) await takeForce.click({ timeout: 1000 }).catch(() => {});
+      const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
+      const middles = await page.getByTestId("feel-letters").locator("span").evaluateAll((all) => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => (left + right) / 2));
+      for (const x of middles) {
+        await page.mouse.move(x, box.y + box.height * 0.5);
+        await page.mouse.down();
+        await page.mouse.move(x + 6, box.y + box.height * 0.5, { steps: 4 });
+        await page.waitForTimeout(kHold_ms);
+        await page.mouse.up();
+      }
+      return page.getByTestId("study-answer-a").isEnabled();
+    }, "both textures touched with force");
+  const touch = async () => {
+    await begin();
+    await pressBoth();
   };
 
   await step("two textures are chosen, and undone and chosen again", async () => {
@@ -43,8 +63,9 @@ export default async function study({ page, studio, step, restart, folder, asper
 
   await step("a trial is touched blind, and answered", async () => {
     equal(await page.getByTestId("study-answer-a").isEnabled(), false, "an answer before the touch");
-    await touch();
-    // The scale bar tells where the letters have to be: each over the middle of its tile of 30 mm, with 4 mm between.
+    await begin();
+    equal(await page.getByTestId("study-answer-a").isEnabled(), false, "an answer before both were touched with force");
+    // The scale bar states where the letters have to be: each over the middle of its tile of 30 mm, with 4 mm between.
     const scale = page.locator(".viewport-scale");
     const perPixel_mm = numberIn(await scale.textContent()) / (await scale.boundingBox()).width;
     const places = await page.getByTestId("feel-letters").locator("span").evaluateAll((all) => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => (left + right) / 2));
@@ -68,11 +89,14 @@ export default async function study({ page, studio, step, restart, folder, asper
       return numberIn(await page.getByTestId("force-now").textContent().then((words) => words.replace("on the hand", ""))) > 0.05;
     }, "a force on the hand");
     await page.mouse.up();
+    await pressBoth();
     ok(!(await page.content()).includes("tile_"), "the page knows no texture's name");
     await page.keyboard.press("1");
     await progress("Trial 2 of 2");
     await until(() => rows().length === 1, "a row in the log");
     ok(rows()[0].startsWith("answer,1,1,,tile_") && rows()[0].includes(",left,"), rows()[0]);
+    const [left_s, right_s, left_N, right_N] = rows()[0].split(",").slice(13, 17).map(Number);
+    ok(left_s >= 0.2 && right_s >= 0.2 && left_N >= 0.1 && right_N >= 0.1, `times and forces of touch: ${rows()[0]}`);
   });
 
   await step("a reload and a restart find the session where it was", async () => {

@@ -48,7 +48,7 @@ export async function openPage(browser, { width = 1400, height = 860, colorSchem
   if (process.env.ASPERITY_E2E_APP) await serveApp(context, process.env.ASPERITY_E2E_APP);
   const page = await context.newPage();
   const complaints = [];
-  // A picture of WebGL that is handed over to the browser's own software is read back, and the driver of SwiftShader says so.
+  // A picture of WebGL that is handed over to the browser's own software is read back, and the driver of SwiftShader states this.
   const always = [/GPU stall due to ReadPixels/];
   let awaited = [];
   const hear = (words) => {
@@ -65,7 +65,7 @@ export async function openPage(browser, { width = 1400, height = 860, colorSchem
     one.on("response", (response) => response.status() >= 400 && hear(`${response.status()}: ${response.url()}`));
   };
   listen(page);
-  /** What a flow brings about on purpose is no complaint. */
+  /** What a flow brings about on purpose is not a complaint. */
   const expectComplaints = (...patterns) => void (awaited = patterns);
   return { context, page, complaints, expectComplaints };
 }

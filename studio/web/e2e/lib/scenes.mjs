@@ -83,7 +83,7 @@ async function feel({ page }) {
   await page.getByTestId("feel-stop").waitFor();
 }
 
-/** Over the stroke, pressing and stroking a little. Where the stroke is seen depends on the window: it is felt for. */
+/** Over the stroke, pressing and stroking a little. Where the stroke is seen depends on the window: the pointer searches for it. */
 async function touch({ page }) {
   await page.mouse.up();
   const view = page.getByTestId("feel-view");
@@ -91,7 +91,7 @@ async function touch({ page }) {
   await fit();
   const box = await view.locator("canvas").boundingBox();
   const to = (x, y, steps = 4) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
-  // A browser that is held up loses the force; it is taken again as a user does. Without it a drag turns the view.
+  // A browser that is held up loses the force; it is taken again as a user does. Without it a drag rotates the view.
   const take = async () => {
     const button = page.getByTestId("feel-take");
     if (!(await button.isVisible())) return true;
@@ -133,7 +133,14 @@ async function study({ page, folder, asperity }) {
   await page.getByTestId("study-advice").filter({ hasText: "Touch both" }).waitFor();
 }
 
+async function home({ page, asperity }) {
+  asperity("texture", "synthesize", "measured/texture.json", "--length", "5mm", "-o", "tile.png", "--quiet");
+  await open(page, "Home");
+  await page.getByTestId("home-here").waitFor();
+}
+
 export const scenes = [
+  { name: "home", prepare: home },
   { name: "scan", prepare: scan },
   { name: "process", prepare: process_ },
   { name: "merge", prepare: merge },

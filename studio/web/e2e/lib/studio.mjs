@@ -2,16 +2,16 @@
 import { spawn, spawnSync } from "node:child_process";
 import { resolve } from "node:path";
 
-/** Runs a command to its end; throws with what it said if it fails. */
+/** Runs a command to its end; throws with its messages if it fails. */
 export function asperity(binary, args, folder) {
   const run = spawnSync(resolve(binary), args, { cwd: folder, encoding: "utf8" });
   if (run.status !== 0) throw new Error(`asperity ${args.join(" ")} ended with ${run.status ?? run.error}:\n${run.stderr}`);
   return run.stdout;
 }
 
-/** A running studio in a folder: its address with the token, and its end. */
-export async function startStudio(binary, folder, args = []) {
-  const child = spawn(resolve(binary), ["studio", "--no-open", ...args], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+/** A running studio in a folder: its address with the token, and its end. `state`: where it keeps the user's list of projects. */
+export async function startStudio(binary, folder, args = [], { state = `${folder}-state` } = {}) {
+  const child = spawn(resolve(binary), ["studio", "--no-open", ...args], { cwd: folder, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_STATE_HOME: state } });
   let said = "";
   let faults = "";
   child.stderr.on("data", (chunk) => (faults += chunk));

@@ -14,7 +14,7 @@ export async function type(field, value) {
   await field.press("Enter");
 }
 
-/** The value of a figure, by its label. */
+/** The value of a result, by its label. */
 export async function figure(place, label) {
   const row = place.locator(".figure", { has: place.page().locator("dt", { hasText: label }) }).first();
   return (await row.locator("dd").textContent()) ?? "";

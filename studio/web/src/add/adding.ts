@@ -48,8 +48,8 @@ export function addedWords(placed: readonly Placed[], hidden: number): string {
   return `Added ${first.join(", ")}${more}.${left}`;
 }
 
-/** Of what was added, files that hold heights: an instrument's, or a table that may. */
+/** True for a file that holds heights: an instrument's, or a table that may hold some. */
 export const holdsHeights = (name: string): boolean => /\.(gsf|sdf|sur|pro|x3p|smd|tiff?)$/i.test(name) || isTable(name);
 
-/** Of what was added, tables that the import can read. */
+/** True for a table that the import can read. */
 export const isTable = (name: string): boolean => /\.(csv|tsv|txt|dat|log)$/i.test(name) && !name.endsWith(".study.csv");

@@ -1,7 +1,7 @@
 import { IconButton } from "../ui/IconButton";
 import { cancelJob, jobs } from "../ui/job";
 
-/** What the server works on, how far it is, and cancel; its place is kept so that nothing moves when work comes or goes. */
+/** What the server works on, how far it is, and cancel; its position is kept so that nothing moves when work comes or goes. */
 export function JobBar() {
   const shown = jobs.value;
   return (

@@ -11,7 +11,7 @@ export interface Command {
 
 const kMostShown = 12;
 
-/** Commands that hold all words of what was typed, those that begin with it first. */
+/** Commands that hold all words that were typed; those that begin with it first. */
 export function found(commands: readonly Command[], typed: string): Command[] {
   const words = typed.toLowerCase().split(/\s+/).filter(Boolean);
   const whole = words.join(" ");

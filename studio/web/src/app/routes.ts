@@ -78,7 +78,7 @@ export const routes: readonly Route[] = [
 const current = signal<Route>(routeOf(typeof location === "undefined" ? "" : location.hash));
 export const route: ReadonlySignal<Route> = current;
 
-/** The route of an address's fragment; the first one for what is none. */
+/** The route of an address's fragment; the first route for any other fragment. */
 export function routeOf(hash: string): Route {
   const id = /^#\/([a-z]+)/.exec(hash)?.[1];
   return routes.find((candidate) => candidate.id === id) ?? routes[0]!;
@@ -86,7 +86,7 @@ export function routeOf(hash: string): Route {
 
 if (typeof window !== "undefined") {
   window.addEventListener("hashchange", () => {
-    // A token is no page: the one that is shown stays.
+    // A token is not a page: the one that is shown stays.
     if (!tokenOf(location.hash)) current.value = routeOf(location.hash);
   });
 }

@@ -3,7 +3,7 @@ import { Plot } from "../plot/Plot";
 import type { Series } from "../plot/series";
 import { scaled, type Measured } from "./measured";
 
-/** The measured profile beside the true one, aligned, in the band in which they are compared (seed Fig. 31). */
+/** The measured profile with the true one, aligned, in the band in which they are compared (thesis Fig. 31). */
 export function AccuracyPlot({ measured }: { measured: Measured }) {
   const x = useMemo(() => scaled(measured.array("compared_s_m"), 1e3), [measured]);
   const series = useMemo<Series[]>(

@@ -4,7 +4,7 @@ import type { Series } from "../plot/series";
 import { number, withError } from "../ui/format";
 import { sortedByX, type Measured } from "./measured";
 
-/** The force-acceleration ratio of every window over its force, with the mean line (seed Fig. 34): flat where it is stiff. */
+/** The force-acceleration ratio of every window over its force, with the mean line (thesis Fig. 34): flat where it is stiff. */
 export function ComplianceScatter({ measured }: { measured: Measured }) {
   const series = useMemo<Series[]>(() => {
     const points = sortedByX(measured.array("compliance_force_N"), measured.array("compliance_ratio"));

@@ -3,7 +3,7 @@ import { Figure } from "../ui/Figure";
 import { Figures } from "../ui/Figures";
 import { figureGroups, figureRows, figureValue, type MeasuredFigure } from "./measured";
 
-/** Figures under their groups, each with unit and uncertainty. `groups` chooses some. */
+/** Values under their groups, each with unit and uncertainty. `groups` chooses some. */
 export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFigure[]; groups?: readonly string[] }) {
   const shown = figureGroups(figures).filter((group) => !groups || groups.includes(group.name));
   return (

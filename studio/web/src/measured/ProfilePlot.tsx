@@ -12,7 +12,7 @@ export interface ProfilePlotProps {
   syncKey?: string;
 }
 
-/** Height or texture over the way, with its uncertainty; gaps are gaps. */
+/** Height or texture over the path length, with its uncertainty; gaps are gaps. */
 export function ProfilePlot({ measured, what, syncKey = "profile" }: ProfilePlotProps) {
   const x = useMemo(() => profileX_mm(measured), [measured]);
   const series = useMemo<Series[]>(() => {

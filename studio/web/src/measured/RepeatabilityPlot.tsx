@@ -9,7 +9,7 @@ import { figureWords, scaled, type MeasuredFigure } from "./measured";
 import { colourRange } from "./pathColours";
 import { repeatedRows, type RepeatedScan } from "./repeated";
 
-/** Profiles of several scans over one another, each shifted once, and how far they agree (seed Fig. 30). */
+/** Profiles of several scans over one another, each shifted once, and how far they agree (thesis Fig. 30). */
 export function RepeatabilityPlot({ block }: { block: Block }) {
   const [stacked, setStacked] = useState(true);
   const scans: RepeatedScan[] = block.head.scans;
@@ -71,7 +71,7 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
   );
 }
 
-/** How far apart profiles stand so that they can be told apart: what all but a hundredth of the heights span. */
+/** How far apart profiles stand so that they can be distinguished: what all but a hundredth of the heights span. */
 function spacing(heights: Float64Array): number {
   const range = colourRange(heights);
   return range ? range.high - range.low : 0;

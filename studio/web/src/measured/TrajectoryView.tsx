@@ -38,7 +38,7 @@ export function TrajectoryView({ measured }: { measured: Measured }) {
       const colours = range && values.length > 0 ? pathColours(values, range) : 0x8a949b;
       shown.push(view.add(lineFromPoints(path, colours)), view.add(dotsFromPoints(path, colours, 3)));
     }
-    // A new setting leaves the viewer where he stands.
+    // A new setting leaves the viewer at the same position.
     if (framed.current !== measured.name) view.fit();
     framed.current = measured.name;
     return () => shown.forEach((object) => view.remove(object));

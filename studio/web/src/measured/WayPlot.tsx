@@ -8,7 +8,7 @@ const QUANTITIES = {
   speed: { array: "profile_speed_mps", label: "Speed", unit: "mm/s", factor: 1e3, colour: 3 },
 } as const;
 
-/** Force or speed over the way. */
+/** Force or speed over the path length. */
 export function WayPlot({ measured, what }: { measured: Measured; what: keyof typeof QUANTITIES }) {
   const { array, label, unit, factor, colour } = QUANTITIES[what];
   const x = useMemo(() => profileX_mm(measured), [measured]);

@@ -4,7 +4,7 @@ import type { Block, NumberArray } from "../net/block";
 import { quantity, withError } from "../ui/format";
 import { verdictsOf, type VerdictEntry } from "./verdicts";
 
-/** A figure as the server names it: name, unit and factor are its (studio/report/src/metric_rows.cc), digits are ours. */
+/** A value as the server names it: name, unit and factor are its (studio/report/src/metric_rows.cc), digits are ours. */
 export interface MeasuredFigure {
   group: string;
   key: string;
@@ -110,23 +110,23 @@ export function band(y: ArrayLike<number>, sigma: ArrayLike<number>, k: number):
   };
 }
 
-/** A figure's value as it is shown: counts without decimals. */
+/** A value as it is shown: counts without decimals. */
 export const figureValue = ({ value, count }: MeasuredFigure): number | string | null => (count && value != null ? String(value) : value);
 
-/** A figure as text, for tables. */
+/** A value as text, for tables. */
 export function figureWords(figure: MeasuredFigure): string {
   const value = figureValue(figure);
   if (typeof value === "string") return value;
   return figure.error == null ? quantity(value, figure.unit) : withError(value, figure.error, figure.unit);
 }
 
-/** The figures for a table of another program: all digits, in their units. */
+/** The values for a table of another program: all digits, in their units. */
 export const figureRows = (figures: readonly MeasuredFigure[]): string[][] => [
   ["group", "figure", "key", "value", "standard_error", "unit"],
   ...figures.map(({ group, label, key, value, error, unit }) => [group, label, key, value == null ? "" : String(value), error == null ? "" : String(error), unit]),
 ];
 
-/** The figures by their groups, in their order. */
+/** The values by their groups, in their order. */
 export function figureGroups(figures: readonly MeasuredFigure[]): { name: string; figures: MeasuredFigure[] }[] {
   const groups = new Map<string, MeasuredFigure[]>();
   for (const figure of figures) groups.set(figure.group, [...(groups.get(figure.group) ?? []), figure]);
@@ -160,7 +160,7 @@ export function spectrumPoints(
   return { x: Float64Array.from(at, (i) => x[i]!), y: of(y), lo: of(lo), hi: of(hi) };
 }
 
-/** Both sorted by x, as plots want their points. */
+/** Both sorted by x, as plots need their points. */
 export function sortedByX(x: ArrayLike<number>, y: ArrayLike<number>): { x: Float64Array; y: Float64Array } {
   const at = Array.from({ length: x.length }, (_, i) => i).sort((a, b) => x[a]! - x[b]!);
   return { x: Float64Array.from(at, (i) => x[i]!), y: Float64Array.from(at, (i) => y[i]!) };

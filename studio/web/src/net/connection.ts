@@ -1,10 +1,10 @@
-// The one connection to the server: calls and their answers, events, topics. It comes back by itself.
+// The one connection to the server: calls and their answers, events, topics. It reconnects by itself.
 import { signal } from "@preact/signals";
 import { decodeBlock, type Block } from "./block";
 
 export type Link = "connecting" | "open" | "lost" | "refused";
 
-/** How the connection stands; the shell shows it. */
+/** The state of the connection; the shell shows it. */
 export const link = signal<Link>("connecting");
 
 /** What the server refused, in words, and what to do next. */
@@ -109,7 +109,7 @@ export async function connect(): Promise<void> {
   await reach();
 }
 
-/** Takes the token out of the address, in favour of the fragment that was there before it. */
+/** Removes the token from the address and restores the fragment that was there before it. */
 function takeToken(before: string): boolean {
   const found = tokenOf(location.hash);
   if (!found) return false;
@@ -162,7 +162,7 @@ function open(): void {
   };
 }
 
-/** No answer will come to what has been asked. */
+/** Rejects all calls that wait for an answer. */
 function giveUp(): void {
   for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page continues when the server answers again."));
   waiting.clear();

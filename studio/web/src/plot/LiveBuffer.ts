@@ -25,7 +25,7 @@ export class LiveBuffer {
     return this.count ? this.t[(this.next + this.capacity - 1) % this.capacity]! : 0;
   }
 
-  /** Samples at rising times. Time that goes back (a new run) begins anew. */
+  /** Samples at rising times. Time that goes back (a new run) starts again. */
   append(t_s: ArrayLike<number>, ys: readonly ArrayLike<number>[]): void {
     if (t_s.length === 0) return;
     if (this.count > 0 && t_s[0]! < this.newest_s) this.clear();

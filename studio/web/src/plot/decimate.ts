@@ -1,6 +1,6 @@
 // Fewer points that look the same: the smallest and the largest value of each bucket.
 
-/** Which value of a bucket is kept: both, or twice the smallest or the largest, as the edges of a band want it. */
+/** Which value of a bucket is kept: both, or twice the smallest or the largest, as the edges of a band need it. */
 export type Keep = "both" | "low" | "high";
 
 export interface Decimated {
@@ -10,7 +10,7 @@ export interface Decimated {
 
 /**
  * Values `from` … `to` (not included) of series with one common, rising x, in `buckets` of equal counts: two points a
- * bucket, each series with its smallest and largest value there, in the order in which they come, or what `keep` says
+ * bucket, each series with its smallest and largest value there, in the order in which they come, or what `keep` states
  * for it. What fits is copied.
  */
 export function decimate(
@@ -43,7 +43,7 @@ export function decimate(
   return result;
 }
 
-/** Writes the smallest and the largest of y[first … end) to `out`, the earlier one first; NaN if there is no number. */
+/** Writes the smallest and the largest of y[first … end) to `out`, the earlier one first; NaN without a number. */
 export function minMax(y: ArrayLike<number>, first: number, end: number, out: Float64Array, at: number): void {
   let lowest = -1;
   let highest = -1;

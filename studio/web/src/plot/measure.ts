@@ -13,7 +13,7 @@ export type CursorName = keyof Cursors;
 
 const kStep = 1 / 200;
 
-/** Where the cursors begin: at a third and at two thirds of what is shown. */
+/** Where the cursors begin: at a third and at two thirds of the shown range. */
 export function firstCursors({ min, max }: Range, logarithmic: boolean): Cursors {
   const at = (share: number) => (logarithmic ? min * (max / min) ** share : min + share * (max - min));
   return { a: at(1 / 3), b: at(2 / 3) };

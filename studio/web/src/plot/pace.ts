@@ -11,14 +11,14 @@ export class Pace {
 
   /** Called at each animation frame with its time; true if it is time to draw. */
   due(now_ms: number): boolean {
-    // A frame after a pause of the page says nothing of its cost.
+    // A frame after a pause of the page states nothing of its cost.
     const step_ms = Math.min(now_ms - this.last_ms, 200);
     if (Number.isFinite(step_ms)) this.frame_ms += 0.1 * (step_ms - this.frame_ms);
     this.last_ms = now_ms;
     return now_ms - this.drawn_ms >= this.period_ms;
   }
 
-  /** Told that it was drawn at this frame. */
+  /** Called after it was drawn at this frame. */
   drew(now_ms: number): void {
     this.drawn_ms = now_ms;
   }

@@ -10,7 +10,7 @@ const cell = (value: number | undefined): string => (value !== undefined && Numb
 
 /**
  * A column of x and one for each series, with lower and upper edge where it has a band. Series with an x of their own:
- * a row a point, with the series' name. What is no number is blank.
+ * a row a point, with the series' name. What is not a number is blank.
  */
 export function plotCsv({ series, x, xAxis, yAxis }: Plotted): string {
   const shared = series.every((one) => one.x === undefined || one.x === x);

@@ -26,7 +26,7 @@ const kEdge = 0.06;
 const escaped = (text: string): string => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]!);
 const short = (value: number): string => String(Math.round(100 * value) / 100);
 
-/** What of the plot lies in `range` of x, without the series that are hidden. */
+/** The part of the plot within `range` of x, without the series that are hidden. */
 export function plotSvg(plot: Plotted, range: Range, look: SvgLook): string {
   const kept = plot.series.map((series, index) => ({ series, colour: look.colours[index]! })).filter(({ series }) => !series.hidden);
   const shown = kept.map(({ series }) => series);

@@ -17,7 +17,7 @@ export interface PlotProps {
   syncKey?: string;
   /** Fixed range of y; without it what is shown fits. */
   yRange?: [number, number];
-  /** Room for the y axis' numbers, so that plots above one another begin at the same place. */
+  /** Room for the y axis' numbers, so that plots above one another begin at the same position. */
   yAxisRoom_px?: number;
   /** Upright lines with words, at values of x. */
   marks?: readonly { x: number; label: string }[];

@@ -1,4 +1,4 @@
-// What a plot shows, and the data that uPlot wants for it.
+// What a plot shows, and the data that uPlot needs for it.
 import { decimate, lowerBound, type Keep } from "./decimate";
 
 /** Names of the CSS variables --series-1 … 8, and the text's second colour. */
@@ -64,7 +64,7 @@ function merged(x: ArrayLike<number>, series: readonly Series[], low: number, hi
   return data;
 }
 
-/** Indices of x between two values, with one neighbour at each side so that lines go on to the edge. */
+/** Indices of x between two values, with one neighbour at each side so that lines continue to the edge. */
 function range(x: ArrayLike<number>, low: number, high: number): [number, number] {
   return [Math.max(0, lowerBound(x, low) - 1), Math.min(x.length, lowerBound(x, high) + 2)];
 }

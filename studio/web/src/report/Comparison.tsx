@@ -2,7 +2,7 @@ import { Table } from "../ui/Table";
 import { comparedRows, type ComparedRow } from "./compare";
 import type { Result } from "./result";
 
-/** The figures of several results side by side. */
+/** The values of several results side by side. */
 export function Comparison({ results }: { results: Result[] }) {
   const rows = comparedRows(results.map((result) => result.measured.figures));
   return (

@@ -6,7 +6,7 @@ import { Overlaid } from "./Overlaid";
 import { ResultDetails } from "./ResultDetails";
 import type { Result } from "./result";
 
-/** The page: plots of all results together, then each one's figures, problems and settings. */
+/** The page: plots of all results together, then each one's values, problems and settings. */
 export function Report({ results }: { results: Result[] }) {
   const one = results.length === 1 ? results[0]! : null;
   return (

@@ -5,7 +5,7 @@ import { Figure } from "../ui/Figure";
 import { Figures } from "../ui/Figures";
 import type { Result } from "./result";
 
-/** Figures (of several results they stand side by side elsewhere), what was dropped and why, and the settings of one result. */
+/** Values (of several results they are side by side elsewhere), what was dropped and why, and the settings of one result. */
 export function ResultDetails({ result, named }: { result: Result; named: boolean }) {
   return (
     <>

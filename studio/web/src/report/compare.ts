@@ -8,7 +8,7 @@ export interface ComparedRow {
 
 const kLongestWords = 12; // sentences are for each result's own place
 
-/** One row for each figure that any result has, in the order of the first that has it. */
+/** One row for each value that any result has, in the order of the first that has it. */
 export function comparedRows(results: readonly (readonly MeasuredFigure[])[]): ComparedRow[] {
   const rows = new Map<string, ComparedRow>();
   results.forEach((figures, index) => {

@@ -9,7 +9,7 @@ export interface Result {
   json: Record<string, any>;
 }
 
-/** Takes a block apart. Throws for one that is none. `called`: its name in this report. */
+/** Decodes a block. Throws if it is not a block. `called`: its name in this report. */
 export function decodeResult(frame: ArrayBuffer, called?: string): Result {
   const block = decodeBlock(frame);
   const measured = measuredOf(block);

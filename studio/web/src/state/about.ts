@@ -1,4 +1,4 @@
-// What the server says of itself.
+// What the server states of itself.
 import { signal, type ReadonlySignal } from "@preact/signals";
 import { call } from "../net/connection";
 

@@ -72,7 +72,7 @@ function parts(path: string): string[] {
     .map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
 }
 
-/** A copy with the value at a path replaced, or taken out where it is null; what is not on the way is shared. */
+/** A copy with the value at a path replaced, or taken out where it is null; what is not on the path is shared. */
 export function replaced(tree: any, path: string[], value: unknown): any {
   if (path.length === 0) return value;
   const [key, ...rest] = path as [string, ...string[]];

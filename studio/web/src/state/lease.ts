@@ -17,7 +17,7 @@ export const leaseIsMine: ReadonlySignal<boolean> = held;
 /** Whether another window has it. */
 export const leaseIsOthers = computed(() => !held.value && owner.value !== null && owner.value !== me.value);
 
-/** Takes the force; true if this window has it then. */
+/** Takes out the force; true if this window has it then. */
 export async function takeForce(): Promise<boolean> {
   const { mine } = await call<{ mine: boolean }>("lease.acquire");
   held.value = mine;

@@ -13,7 +13,7 @@ export interface ConfigFormProps {
   disabled?: boolean;
 }
 
-/** All fields of a config, grouped by what stands before the last dot of the path; with a search. */
+/** All fields of a config, grouped by what is before the last dot of the path; with a search. */
 export function ConfigForm({ fields, onChange, disabled }: ConfigFormProps) {
   const [search, setSearch] = useState("");
   const [changedOnly, setChangedOnly] = useState(false);

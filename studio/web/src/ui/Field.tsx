@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 
-/** A control below its label, with what it is for and what is wrong with it. */
+/** A control below its label, with its purpose and its error. */
 export function Field(props: {
   label: string;
   hint?: string;

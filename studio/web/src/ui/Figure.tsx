@@ -13,7 +13,7 @@ export interface FigureProps {
   testId?: string;
 }
 
-/** A result: label, value ± error, unit. Several of them stand in a <Figures>. */
+/** A result: label, value ± error, unit. Several of them are in a <Figures>. */
 export function Figure({ label, value, error, unit = "", factor = 1, digits = 4, hint, testId }: FigureProps) {
   const shown =
     typeof value === "string"

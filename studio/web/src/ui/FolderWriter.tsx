@@ -16,7 +16,7 @@ export interface FolderWriterProps<Written> {
   /** What is shown below the button once something is written. */
   children(written: Written): ComponentChildren;
   buttonTestId: string;
-  /** Of what is shown. */
+  /** The files that are shown. */
   testId: string;
 }
 

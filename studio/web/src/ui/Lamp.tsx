@@ -4,7 +4,7 @@ export interface LampProps {
   state: LampState;
   /** The state in a word or two, always shown: "in contact". */
   word: string;
-  /** Of what it is the state; read out before the word. */
+  /** The thing whose state it is; read out before the word. */
   label?: string;
   /** Changes are read out. */
   live?: boolean;

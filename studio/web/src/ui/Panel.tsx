@@ -11,7 +11,7 @@ export interface PanelProps {
   collapsible?: boolean;
   /** Of a collapsible one, at first. */
   open?: boolean;
-  /** Takes the height that is left, and scrolls inside. */
+  /** Uses the height that is left, and scrolls inside. */
   grow?: boolean;
   testId?: string;
 }

@@ -25,7 +25,7 @@ export interface SliderProps {
 const kPositions = 1000;
 const kPause_ms = 1000;
 
-/** A slider with a number field beside it, for the same value. */
+/** A slider with a number field next to it, for the same value. */
 export function Slider(props: SliderProps) {
   const { label, value, low, high, unit, hint, logarithmic = false, onInput } = props;
   const [problem, setProblem] = useState("");

@@ -4,7 +4,7 @@ const THIN = "\u202f";
 const MINUS = "\u2212";
 const NOTHING = "–";
 
-/** A number with `digits` significant digits; "–" for what is none. */
+/** A number with `digits` significant digits; "–" if it is not one. */
 export function number(value: number | null | undefined, digits = 4): string {
   if (value == null || !Number.isFinite(value)) return NOTHING;
   if (value === 0) return "0";
@@ -21,10 +21,10 @@ export function fixed(value: number | null | undefined, decimals: number): strin
   return minus(Number(text) === 0 ? text.replace("-", "") : text);
 }
 
-/** Less than this is nothing in its unit: a length under a nanometre says how a computer rounds, not what a surface is like. */
+/** Less than this is nothing in its unit: a length under a nanometre is rounding, not surface. */
 const FLOORS: Record<string, number> = { m: 1e-9, mm: 1e-6, µm: 1e-3, N: 1e-6, "m/s": 1e-9, "mm/s": 1e-6, "°": 1e-6, rad: 1e-8, s: 1e-9, ms: 1e-6, "%": 1e-6 };
 
-/** The value, or 0 for what is too little to mean anything in its unit. */
+/** The value, or 0 if it is too small to mean anything in its unit. */
 export const floored = (value: number, unit: string): number => (Math.abs(value) < (FLOORS[unit] ?? 0) ? 0 : value);
 
 /** What is written, and its unit, on one line. */

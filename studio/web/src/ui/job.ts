@@ -25,7 +25,7 @@ export function followJobs(): void {
   onEvent("job", (job: Job) => (all.value = withJob(all.value, job)));
 }
 
-/** What the server works on already: after a connection nothing is known of it. A server that has no such list tells by events. */
+/** The jobs that run already, read after each connection. A server without such a list sends events. */
 export async function readJobs(): Promise<void> {
   all.value = [];
   try {
@@ -36,7 +36,7 @@ export async function readJobs(): Promise<void> {
   }
 }
 
-/** The list with a job's news: changed in its place, or gone when it has ended. */
+/** The list with a changed job, or without it if it has ended. */
 export function withJob(list: Job[], job: Job): Job[] {
   const ended = job.state !== "waiting" && job.state !== "running";
   if (ended) return list.filter(({ id }) => id !== job.id);

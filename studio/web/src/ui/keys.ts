@@ -77,7 +77,7 @@ export function findKey(groups: KeyGroup[], name: string, previous: string, typi
 }
 
 /**
- * What the key `name` does after the key `first`: runs a key, begins two in a row, or nothing. A second key that goes on
+ * What the key `name` does after the key `first`: runs a key, begins two in a row, or nothing. A second key that continues
  * with nothing does not do what it does alone: one who is late or slips starts, discards and switches nothing.
  */
 export function meaningOf(groups: KeyGroup[], name: string, first: string, typing: boolean): { key?: Key; leader: string; taken: boolean } {
@@ -101,7 +101,7 @@ function hear(event: KeyboardEvent): void {
   leader.value = next;
   if (taken) event.preventDefault();
   if (!key) return;
-  // A key that is held down starts, stops and answers once; what moves or undoes goes on.
+  // A key that is held down starts, stops and answers once; what moves or undoes continues.
   if (event.repeat && !kRepeating.test(name)) return;
   try {
     const result = key.run();

@@ -16,7 +16,7 @@ export const meshUnits: readonly MeshUnit[] = [
 
 const LENGTHS: Record<string, number> = { nm: 1e-9, um: 1e-6, µm: 1e-6, mm: 1e-3, cm: 1e-2, m: 1 };
 
-/** The metres of "mm", "0.06m" or "25.4 mm"; of nothing a metre; null for what is no length. */
+/** The metres of "mm", "0.06m" or "25.4 mm"; of nothing a metre; null for anything that is not a length. */
 export function unitOfText(text: string): number | null {
   if (text.trim() === "") return 1;
   const found = /^\s*(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)?\s*(nm|um|µm|mm|cm|m)\s*$/i.exec(text);

@@ -1,6 +1,6 @@
 // Numbers as people type them.
 
-/** A number that may be typed with a comma or a proper minus; null for what is none. */
+/** A number that may be typed with a comma or a proper minus; null if it is not one. */
 export function parseNumber(text: string): number | null {
   const plain = text.trim().replace(/\u2212/g, "-").replace(",", ".");
   if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) return null;

@@ -17,7 +17,7 @@ const kCancelled = "cancelled";
 export const toasts = signal<Toast[]>([]);
 let nextId = 1;
 
-/** Tells that something happened; goes away by itself. */
+/** States that something happened; goes away by itself. */
 export function say(message: string, hint = ""): void {
   add({ kind: "note", message, hint }, kNoteShown_ms);
 }

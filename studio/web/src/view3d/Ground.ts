@@ -18,7 +18,7 @@ const kCells = 10;
 const kBelow = 0.03;
 const kInMargin = 0.075; // half of what View.fit() leaves
 
-/** A grid below the content, its cells a round number of millimetres, and the three axes beside the content. */
+/** A grid below the content, its cells a round number of millimetres, and the three axes next to the content. */
 export class Ground {
   readonly object = new Group();
   private readonly grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
@@ -54,7 +54,7 @@ export class Ground {
     this.grid.geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.grid.geometry.computeBoundingSphere();
     const size = box.getSize(new Vector3());
-    // Beside the content, and within the margin that a fitted picture has.
+    // Next to the content, and within the margin that a fitted picture has.
     const beside = (extent: number) => extent / 2 + Math.max(0.2 * cell, kInMargin * extent - 0.3 * cell);
     const origin = centre
       .clone()

@@ -23,14 +23,14 @@ import { listenToPointer, type PointerListener } from "./pointer";
 import { directionOf, fitDistance, upOf, type Upright, type ViewName } from "./views";
 
 const kNear_px = 5;
-const kMargin = 1.15; // of what is shown, so that legends and buttons beside it cover little
+const kMargin = 1.15; // of the content, so that legends and buttons next to it cover little
 
 Mesh.prototype.raycast = acceleratedRaycast;
 
 /**
  * A scene and the camera that shows it, drawn only when something has changed: call invalidate() after each change.
- * Lengths are metres in the frame of the data. Nothing is turned for show: in the tracker's world (x right, y down,
- * z away from the camera) only the viewing camera stands upright, by `up`.
+ * Lengths are metres in the frame of the data. Nothing is rotated for show: in the tracker's world (x right, y down,
+ * z away from the camera) only the viewing camera is upright, by `up`.
  */
 export class View {
   readonly scene = new Scene();
@@ -91,7 +91,7 @@ export class View {
     this.invalidate();
   }
 
-  /** Shows an object, a box, or all of the content, from where the camera stands. */
+  /** Shows an object, a box, or all of the content, from the position of the camera. */
   fit(what: Object3D | Box3 = this.content): void {
     const box = "isBox3" in what ? what.clone() : new Box3().setFromObject(what);
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
@@ -118,7 +118,7 @@ export class View {
     this.fit();
   }
 
-  /** Turns by angles in radians, or comes nearer by a factor below 1. */
+  /** Rotates by angles in radians, or comes nearer by a factor below 1. */
   orbit(right_rad: number, up_rad: number, nearer = 1): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     const up = upOf(this.up);
@@ -137,7 +137,7 @@ export class View {
     return listenToPointer(this, listener);
   }
 
-  /** Aims the raycaster at a place of the canvas, in CSS pixels of the window. */
+  /** Aims the raycaster at a position of the canvas, in CSS pixels of the window. */
   aim(clientX: number, clientY: number): Raycaster {
     const place = this.canvas.getBoundingClientRect();
     const at = new Vector2(((clientX - place.left) / place.width) * 2 - 1, 1 - ((clientY - place.top) / place.height) * 2);

@@ -20,8 +20,8 @@ export interface ViewportProps {
 }
 
 /**
- * A 3D view: drag turns, the right button moves, the wheel zooms; with the focus arrows turn, + and − zoom, 0 fits, and
- * 1 … 6 show top, bottom, front, back, left and right. Without WebGL it says so, and the rest of the page goes on.
+ * A 3D view: drag rotates, the right button moves, the wheel zooms; with the focus arrows rotate, + and − zoom, 0 fits, and
+ * 1 … 6 show top, bottom, front, back, left and right. Without WebGL it states this, and the rest of the page continues.
  */
 export function Viewport({ label, onReady, up = "-y", views = true, children, testId }: ViewportProps) {
   const canvas = useRef<HTMLCanvasElement>(null);

@@ -1,5 +1,5 @@
 /**
- * When the next picture may be drawn: after a dear one the page is left as long to everything else, to what comes from the
+ * When the next picture may be drawn: after an expensive picture the page has as much time for everything else, such as data from the
  * server, to keys, and to the heartbeat of the force, which ends when it is silent for half a second.
  */
 export class Ease {
@@ -9,7 +9,7 @@ export class Ease {
     return now_ms >= this.free_ms;
   }
 
-  /** Told when a picture was begun, and when the page came to something else. */
+  /** Called when a picture was begun, and when the page was free again. */
   drew(begun_ms: number, ended_ms: number): void {
     const cost_ms = Math.max(0, ended_ms - begun_ms);
     this.free_ms = ended_ms + (cost_ms > kCheap_ms ? Math.min(cost_ms, kLongest_ms) : 0);

@@ -29,7 +29,7 @@ export interface MeshOptions {
   opacity?: number;
   /** Flat triangles, as they are; smooth without it. */
   flat?: boolean;
-  /** Three values from 0 to 1 a vertex; takes the place of `colour`. */
+  /** Three values from 0 to 1 a vertex; replaces `colour`. */
   vertexColours?: Float32Array;
 }
 
@@ -145,7 +145,7 @@ export function poseOf(object: Object3D): number[] {
   return object.matrix.clone().transpose().toArray();
 }
 
-/** Colours from blue over white to red for −1 … 1; it can be told apart by the colour-blind. */
+/** Colours from blue over white to red for −1 … 1; it can be distinguished by the colour-blind. */
 export function divergingColours(values: ArrayLike<number>, limit: number): Float32Array {
   const colours = new Float32Array(3 * values.length);
   const colour = new Color();

@@ -12,7 +12,7 @@ export interface PointerHit {
 export interface PointerListener {
   /** What can be hit; all of the content without it. */
   targets?(): Object3D[];
-  /** Returns true to have the pointer for itself: the view does not turn until it is up. */
+  /** Returns true to have the pointer for itself: the view does not rotate until it is up. */
   on(pointer: PointerHit): boolean | void;
 }
 
@@ -21,7 +21,7 @@ export interface PointedView {
   readonly canvas: HTMLCanvasElement;
   readonly controls: { enabled: boolean };
   readonly content: Object3D;
-  /** A ray through a place of the canvas, in CSS pixels of the window. */
+  /** A ray through a position of the canvas, in CSS pixels of the window. */
   aim(clientX: number, clientY: number): Raycaster;
 }
 

@@ -11,7 +11,7 @@ export function upOf(up: Upright): Vector3 {
   return new Vector3(0, up === "y" ? 1 : -1, 0);
 }
 
-/** Where the viewer stands, seen from the middle; "front" is where the tracker's camera stands, or −y where z is up. */
+/** Where the viewer is, seen from the middle; "front" is where the tracker's camera is, or −y where z is up. */
 export function directionOf(name: ViewName, up: Upright): Vector3 {
   const above = upOf(up);
   const front = up === "z" ? new Vector3(0, -1, 0) : new Vector3(0, 0, up === "y" ? 1 : -1);

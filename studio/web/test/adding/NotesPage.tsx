@@ -1,4 +1,4 @@
-// The browser's part of a page, as docs/architecture.md tells to add one; the server's is tests/adding/page_example.cc.
+// The browser's part of a page, as docs/architecture.md describes; the server's is tests/adding/page_example.cc.
 import { signal } from "@preact/signals";
 import { call } from "../../src/net/connection";
 import { edit, section } from "../../src/state/document";
@@ -19,7 +19,7 @@ async function count(): Promise<void> {
   words.value = (await call<{ words: number }>("notes.count")).words;
 }
 
-/** A note on what was scanned. */
+/** A note on the scanned object. */
 export default function NotesPage() {
   return (
     <PageLayout title="Notes">

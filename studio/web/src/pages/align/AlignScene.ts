@@ -48,7 +48,7 @@ export class AlignScene {
     this.pathOf = block.arrays.path_of ?? [];
     this.paths = (block.head.paths as string[]).length;
     const mesh = meshFromBlock(block, "positions", "indices", { colour: themeColour("--view-mesh") });
-    // The path lies on the surface: the surface is drawn a little behind itself.
+    // The path is on the surface: the surface is drawn slightly behind its true depth.
     mesh.material.polygonOffset = true;
     mesh.material.polygonOffsetFactor = 2;
     mesh.material.polygonOffsetUnits = 8;
@@ -76,12 +76,12 @@ export class AlignScene {
     this.gizmo.addEventListener("objectChange", () => events.moved(poseOfPath(this.path, this.frame), this.gesture));
   }
 
-  /** Shows mesh and path from where the viewer stands. */
+  /** Shows mesh and path from the position of the viewer. */
   fit(): void {
     this.view.fit(this.mesh);
   }
 
-  /** With `poses`, one a path, each path lies by its own; the group's pose is that of the first. */
+  /** With `poses`, one a path, each path has its own pose; the group's pose is that of the first. */
   place(pose: Pose, poses: readonly Pose[] | null = null): void {
     if (!this.gizmo.dragging) placePath(this.path, pose, this.frame);
     if (poses || this.apart) {
@@ -180,7 +180,7 @@ export class AlignScene {
     this.view.invalidate();
   }
 
-  /** The point of the path under a place of the window, world frame. */
+  /** The point of the path under a position of the window, world frame. */
   pathPointAt(x: number, y: number): Point | null {
     const place = this.view.canvas.getBoundingClientRect();
     this.path.updateMatrixWorld();
@@ -197,7 +197,7 @@ export class AlignScene {
     return [world.x, world.y, world.z];
   }
 
-  /** The point of the mesh under a place of the window, mesh frame. */
+  /** The point of the mesh under a position of the window, mesh frame. */
   meshPointAt(x: number, y: number): Point | null {
     const hit = this.view.aim(x, y).intersectObject(this.mesh, false)[0];
     if (!hit) return null;

@@ -112,7 +112,7 @@ function ToolButton({ name, words, hint }: { name: Tool; words: string; hint: st
   );
 }
 
-/** What is shown, where it is not simply the path in its place. */
+/** The label of what is shown, if it is not the path at its own pose. */
 function Notice() {
   const words = noticeWords();
   return (
@@ -150,7 +150,7 @@ function noticeWords(): string {
   }
 }
 
-/** A click, which is no drag, picks a point of the path and then one of the mesh. */
+/** A click, which is not a drag, picks a point of the path and then one of the mesh. */
 function listenToClicks(view: View, scene: () => AlignScene | null): () => void {
   let down: { x: number; y: number } | null = null;
   return view.onPointer({

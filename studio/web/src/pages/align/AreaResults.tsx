@@ -15,7 +15,7 @@ import "../../measured/measured.css";
 
 const kLamps = { valid: ["good", "Valid"], limited: ["warn", "Limited"], invalid: ["bad", "Invalid"] } as const;
 
-/** The verdict on the area and its figures, and writing. */
+/** The verdict on the area and its values, and writing. */
 export function AreaResults() {
   const made = madeArea.value;
   if (!made) return <Panel title="Area" testId="align-area-result" grow><p class="empty">No area yet.</p></Panel>;

@@ -33,7 +33,7 @@ export class AreaScene {
     this.patch = view.add(new Mesh(geometry, material));
   }
 
-  /** Shows the patch from where the viewer stands; the whole mesh if there is none. */
+  /** Shows the patch from the position of the viewer; the whole mesh if there is none. */
   fit(): void {
     this.view.fit(this.patch.geometry.getAttribute("position").count > 0 ? this.patch : this.mesh);
   }

@@ -84,7 +84,7 @@ function choosePath(section: AlignSection, name: string, on: boolean): Promise<v
   return change({ paths }, on ? "choose a scan" : "leave a scan out").catch(complain);
 }
 
-/** Another mesh or scan begins anew: poses and picks of the old one mean nothing there. */
+/** Another mesh or scan starts again: poses and picks of the old one mean nothing there. */
 function change(part: Partial<AlignSection>, label: string): Promise<void> {
   const { T_mesh_world: _pose, registered: _registered, ...kept } = align.value!;
   return edit("/align", { ...kept, picks: [], ...part }, label);

@@ -6,11 +6,11 @@ import { edit } from "../../state/document";
 import { about, align, missing, moveBySix, opened, shownSix, turnAbout, type Six } from "./alignState";
 
 const AXES = ["x", "y", "z"] as const;
-// Turns about x, the turned y and the twice turned z; the middle one within a quarter turn, so that the six are one pose.
+// Rotations about x, the rotated y and the twice rotated z; the middle one within 90°, so that the six are one pose.
 const TURN_LIMITS_deg = [180, 90, 180];
 const kOriginReach_m = 1;
 
-/** The six numbers of the pose (seed §5.4, Fig. 23). */
+/** The six numbers of the pose (thesis §5.4, Fig. 23). */
 export function HandPanel() {
   const six = shownSix.value;
   const head = opened.value?.head;

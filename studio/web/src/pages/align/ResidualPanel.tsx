@@ -6,7 +6,7 @@ import { Panel } from "../../ui/Panel";
 import { residuals } from "./alignState";
 import { colourLimit_m, histogram } from "./residuals";
 
-/** How far the path that is shown lies from the mesh. */
+/** How far the path that is shown is from the mesh. */
 export function ResidualPanel() {
   const now = residuals.value;
   const bars = useMemo(() => (now ? histogram(now.distance_m, colourLimit_m(now.distance_m)) : null), [now]);

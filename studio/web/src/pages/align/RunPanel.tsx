@@ -9,7 +9,7 @@ import { Warning } from "../../ui/Warning";
 import { verdictWords } from "./verdict";
 import { ghost, isMoved, isRegistered, judged, missing, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
 
-/** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
+/** The registration: from here or from anywhere, its verdict, and its runner-up. */
 export function RunPanel() {
   const found = result.value;
   const job = runningJob.value;

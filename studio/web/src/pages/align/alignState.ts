@@ -1,4 +1,4 @@
-// What the Align page knows beside the document: the open mesh and path, the last registration, what is being shown.
+// What the Align page knows in addition to the document: the open mesh and path, the last registration, what is being shown.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { VerdictEntry } from "../../measured/verdicts";
 import { call, onEvent, subscribe } from "../../net/connection";
@@ -53,7 +53,7 @@ export interface RunResult extends Solution {
   scans?: ScanPose[];
 }
 
-/** What is to be said of a pose that was placed by hand. */
+/** The verdict on a pose that was set by hand. */
 export interface Judged {
   T_mesh_world: Pose;
   rms_m: number | null;
@@ -98,7 +98,7 @@ export const showAreas = signal(true);
 export const tool = signal<Tool>("look");
 /** The point of the path, in the world, that waits for its point of the mesh. */
 export const half = signal<Point | null>(null);
-/** What turns leave in its place. */
+/** The point that rotations leave unchanged. */
 export const about = signal<"middle" | "origin">("middle");
 export const six = signal<Six | null>(null);
 
@@ -143,7 +143,7 @@ export const isMoved = computed(
   () => result.value !== null && align.value?.T_mesh_world !== undefined && !samePose(align.value.T_mesh_world, result.value.T_mesh_world),
 );
 
-/** Changes what turns leave in its place; the six numbers are then others. */
+/** Changes the point that rotations leave unchanged; the six numbers are then others. */
 export function turnAbout(what: "middle" | "origin"): void {
   six.value = null;
   about.value = what;

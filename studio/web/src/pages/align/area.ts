@@ -20,7 +20,7 @@ export interface AreaMap {
   spacing_m: number;
 }
 
-/** What area.json says, as far as the page shows it. */
+/** What area.json states, as far as the page shows it. */
 export interface AreaResult {
   trustworthy: boolean;
   verdict: string;
@@ -88,7 +88,7 @@ export function patchCorners(block: Block): { positions: Float32Array; uv: Float
 
 const micro = (value: number | null) => (value == null ? null : 1e6 * value);
 
-/** The area's figures, as a table of them is made. */
+/** The area's values, as a table of them is made. */
 export function areaFigures(result: AreaResult): MeasuredFigure[] {
   const { patch, parametrisation, map, held_out } = result;
   return [

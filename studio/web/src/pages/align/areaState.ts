@@ -6,13 +6,13 @@ import { areaKey, type AreaSection } from "./area";
 
 export interface MadeArea {
   block: Block;
-  /** Of what it was made. */
+  /** The inputs that it was made of. */
   key: string;
 }
 
 export const madeArea = signal<MadeArea | null>(null);
 export const makingArea = signal(false);
-/** Why there is no area; "": there is one, or none was asked for. */
+/** Why there is no area yet; "": there is one, or none was requested. */
 export const areaFault = signal("");
 
 export async function makeArea(area: AreaSection): Promise<void> {

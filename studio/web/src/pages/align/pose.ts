@@ -19,7 +19,7 @@ const point = (v: Vector3): Point => [v.x, v.y, v.z];
 export const toMesh = (pose: Pose, p_world_m: Point): Point =>
   point(new Vector3(...p_world_m).applyQuaternion(rotation(pose)).add(position(pose)));
 
-/** Where points about the path's middle are drawn if each path lies by a pose of its own and all are drawn by `pose`. */
+/** Where points about the path's middle are drawn if each path has its own pose and all are drawn by `pose`. */
 export function pointsApart(points: ArrayLike<number>, pathOf: ArrayLike<number>, pose: Pose, poses: readonly Pose[], frame: Frame): Float32Array {
   const out = new Float32Array(points.length);
   const middle = new Vector3(...frame.middle_world_m);

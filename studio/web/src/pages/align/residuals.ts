@@ -16,7 +16,7 @@ export interface Residuals {
   overlap_m: number;
 }
 
-/** Dark blue to yellow, as bright as large, told apart by the colour-blind (after cividis). */
+/** Dark blue to yellow, as bright as large, distinguished by the colour-blind (after cividis). */
 const RAMP: readonly (readonly [number, number, number])[] = [
   [0.0, 0.135, 0.305],
   [0.19, 0.255, 0.42],
@@ -38,7 +38,7 @@ export function rampColour(part: number): [number, number, number] {
 /** What is not known: neither near nor far. */
 const UNKNOWN: readonly [number, number, number] = [0.75, 0.3, 0.6];
 
-/** Colours of distances up to `limit`, in the linear light that three.js wants; NaN is none of the ramp's. */
+/** Colours of distances up to `limit`, in the linear light that three.js needs; NaN has a colour outside of the ramp. */
 export function residualColours(distance: ArrayLike<number>, limit: number): Float32Array {
   const out = new Float32Array(3 * distance.length);
   for (let index = 0; index < distance.length; ++index) {
@@ -81,12 +81,12 @@ function roundLimit(distance: ArrayLike<number>, least: number): number {
 }
 
 export interface Histogram {
-  /** Edges of the bins as a step line wants them, mm. */
+  /** Edges of the bins as a step line needs them, mm. */
   edges_mm: number[];
   percent: number[];
 }
 
-/** The share of distances in each of `bins` equal bins between −limit and limit; what lies beyond is in the outermost. */
+/** The share of distances in each of `bins` equal bins between −limit and limit; what is beyond is in the outermost. */
 export function histogram(distance_m: ArrayLike<number>, limit_m: number, bins = 40): Histogram {
   const counts = new Array<number>(bins).fill(0);
   for (let index = 0; index < distance_m.length; ++index) {

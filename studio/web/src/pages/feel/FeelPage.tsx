@@ -19,7 +19,7 @@ import "./feel.css";
 const kDeepest_m = 0.02;
 const kDepth_m = 0.004; // about 0.9 N on the default surface, by the default spring
 
-/** A scene, a device, and what is felt between them. */
+/** A scene, a device, and what is rendered between them. */
 export default function FeelPage() {
   useEffect(followFeel, []);
   const [block, setBlock] = useState<Block | null>(null);

@@ -11,7 +11,7 @@ import { WayTrace } from "./wayTrace";
 const kWindow_s = 5;
 const kRedraw_ms = 200;
 
-/** Every tick's forces and texture height, over time and over the way. */
+/** Every tick's forces and texture height, over time and over the path length. */
 export function FeelPlots() {
   const [forces] = useState(() => new LiveBuffer(FORCES.length, 1 << 15));
   const [heights] = useState(() => new LiveBuffer(1, 1 << 15));

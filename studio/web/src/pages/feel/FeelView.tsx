@@ -21,7 +21,7 @@ export interface FeelViewProps {
   depth_m: number;
   deepest_m: number;
   onDepth(depth_m: number): void;
-  /** A trial of a study: seen from above, without figures, and felt only while a study is. */
+  /** A trial of a study: seen from above, without values, and rendered only while a study is. */
   blind?: boolean;
 }
 
@@ -63,7 +63,7 @@ export function FeelView(props: FeelViewProps) {
   useEffect(() => {
     if (!view.current || !marks.current) return;
     const most_N = feelStatus.value?.max_force_N ?? 5;
-    // With motors the hand feels the force; a drawn one would be a second answer.
+    // With motors the hand receives the force; a drawn one would be a second answer.
     if (state && isOurs() && !(blind && feelStatus.value?.real_forces)) marks.current.show(state, target.current && pointOf(target.current), most_N);
     else marks.current.hide();
     view.current.invalidate();
@@ -79,7 +79,7 @@ export function FeelView(props: FeelViewProps) {
       onReady={(made) => {
         view.current = made;
         marks.current = new ForceMarks();
-        // A turned picture would have A at the right.
+        // A rotated picture would have A at the right.
         made.controls.enableRotate = made.controls.enablePan = !blind;
         // A participant has left and right alone.
         made.showAxes(!blind);
@@ -116,7 +116,7 @@ export function FeelView(props: FeelViewProps) {
   );
 }
 
-/** Says that a run goes on without force, and how to take it. */
+/** States that a run continues without force, and how to take it. */
 function NoForce() {
   const status = feelStatus.value;
   if (status?.state !== "running" || !status.may_command_forces || commandsRun()) return null;

@@ -4,7 +4,7 @@ import { length } from "../../ui/format";
 import { Panel } from "../../ui/Panel";
 import { greys, type TextureHead } from "./feelAreas";
 
-/** The images that are felt, as they are laid: black the lowest, white the highest (seed Fig. 38). */
+/** The images that are rendered, as they are laid: black the lowest, white the highest (thesis Fig. 38). */
 export function HeightMapsPanel({ block }: { block: Block }) {
   const heads = block.head.textures as TextureHead[];
   return (

@@ -75,7 +75,7 @@ function ForceLimit() {
   );
 }
 
-/** The textures of the scene, and others in their place. */
+/** The textures of the scene, and others instead of them. */
 export function TexturesPanel({ textures, indices }: { textures: TextureHead[]; indices: TextureIndex[] }) {
   const chosen = feelSection.value?.textures ?? {};
   return (

@@ -50,7 +50,7 @@ export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boole
   );
 }
 
-/** Up to four images, upper left first (seed Fig. 38). */
+/** Up to four images, upper left first (thesis Fig. 38). */
 function Tiles() {
   const chosen = feelSection.value ?? {};
   const names = chosen.height_maps ?? [];

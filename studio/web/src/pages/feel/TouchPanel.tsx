@@ -10,7 +10,7 @@ import { Panel } from "../../ui/Panel";
 import { say } from "../../ui/toast";
 import { causeWords, feelState, feelStatus, forceWords, length3 } from "./feelStore";
 
-/** What is felt now, and what limits it. */
+/** What is rendered now, and what limits it. */
 export function TouchPanel() {
   const state = feelState.value;
   const status = feelStatus.value;
@@ -46,7 +46,7 @@ export function TouchPanel() {
   );
 }
 
-/** What is below what can be told apart is nothing. */
+/** Values below the resolution are shown as zero. */
 const floored = (value: number, least: number): number => (Math.abs(value) < least ? 0 : value);
 
 function LastRun() {

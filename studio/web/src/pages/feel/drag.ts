@@ -1,4 +1,4 @@
-// Where the pointer's target is: over a place of the surface, by a height that is negative while it presses.
+// Where the pointer's target is: over a point of the surface, by a height that is negative while it presses.
 
 export type Point = [number, number, number];
 
@@ -7,7 +7,7 @@ export interface Ray {
   direction: Point;
 }
 
-/** A place of the surface with its normal, and the target's height over it along that. */
+/** A point of the surface with its normal, and the target's height over it along that. */
 export interface Target {
   place: Point;
   normal: Point;
@@ -31,7 +31,7 @@ const kGrazing = 0.05; // of a ray against a plane, as the sine of the angle bet
 
 /**
  * Where a ray meets the plane through `place` with `normal`; null behind the viewer, and where the ray only grazes it:
- * a pixel would be a long way.
+ * a pixel would be a long distance.
  */
 export function onPlane(ray: Ray, place: Point, normal: Point): Point | null {
   const toward = dot(ray.direction, normal);

@@ -30,10 +30,10 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
   };
   const send = () => {
     const active = props.active();
-    // The left button feels; the view is turned by the right one meanwhile.
+    // The left button touches; the view is rotated by the right one meanwhile.
     view.controls.mouseButtons = active ? { LEFT: null, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE } : usual;
     if (!active) {
-      // Whoever takes the force again does not press at once.
+      // A user who takes the force again does not press at once.
       if (target) target = { ...target, height_m: Math.max(target.height_m, props.limits().hover_m) };
       props.onTarget(null);
       pressing = false;

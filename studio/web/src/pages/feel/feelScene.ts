@@ -23,7 +23,7 @@ const kTint = 0.55;
 
 export const seriesOf = (texture: number): number => (texture % 8) + 1;
 
-/** All objects of a block of feel.open. Colours are those of the theme: made anew when it changes. */
+/** All objects of a block of feel.open. Colours are those of the theme: made again when it changes. */
 export function makeFeelScene(block: Block): Group {
   const group = new Group();
   for (let k = 0; k < block.head.objects; ++k) addObject(group, block, k);

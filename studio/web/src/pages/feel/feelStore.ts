@@ -1,4 +1,4 @@
-// What the server says of the run: its status, and the newest state while it goes on. The same for all pages.
+// What the server states of the run: its status, and the newest state while it continues. The same for all pages.
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { VerdictEntry } from "../../measured/verdicts";
 import type { Block } from "../../net/block";
@@ -14,7 +14,7 @@ export interface FeelStatus {
   real_forces: boolean;
   /** Whose run it is. */
   owner: number | null;
-  /** What is felt is a trial of a study, not what this page shows. */
+  /** What is rendered is a trial of a study, not what this page shows. */
   visited: boolean;
   /** Between two trials, without force. */
   held: boolean;
@@ -71,7 +71,7 @@ export interface FeelState {
 const newestStatus = signal<FeelStatus | null>(null);
 const newestState = signal<FeelState | null>(null);
 export const feelStatus: ReadonlySignal<FeelStatus | null> = newestStatus;
-/** Null while nothing is felt. */
+/** Null while nothing is rendered. */
 export const feelState: ReadonlySignal<FeelState | null> = newestState;
 
 const vector = (block: Block, name: string): Vector => Array.from(block.arrays[name]!) as Vector;
@@ -116,13 +116,13 @@ export function followFeel(): void {
   });
 }
 
-/** Starts what the document says, with the force for this window where it may have it. */
+/** Starts what the document states, with the force for this window where it may have it. */
 export async function startFeeling(): Promise<void> {
   if (newestStatus.value?.may_command_forces && !leaseIsMine.value) await takeForce();
   take(await call<FeelStatus>("feel.start"));
 }
 
-/** Takes the force, and with it a run that goes on without one. */
+/** Takes the force, and with it a run that continues without force. */
 export async function takeRun(): Promise<void> {
   if (!(await takeForce())) throw new Error("Another window has the force. Release it there first.");
   if (newestStatus.value?.state === "running") await call("feel.take");
@@ -155,7 +155,7 @@ export function watchdog(state: FeelState): { lamp: "good" | "warn" | "bad"; wor
   return slight ? { lamp: "warn", word: causeWords(slight) } : { lamp: "good", word: "no fault" };
 }
 
-/** How the force stands, for the header and the panel alike. */
+/** The state of the force, for the header and the panel alike. */
 export function forceWords(status: FeelStatus | null, state: FeelState | null, connected: boolean, mine: boolean): { lamp: "off" | "good" | "warn" | "bad" | "busy"; word: string } {
   if (!connected) return { lamp: "off", word: "ended" };
   if (!status || status.state === "idle") return { lamp: "off", word: "off" };

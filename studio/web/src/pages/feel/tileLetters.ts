@@ -23,7 +23,7 @@ export function tileTops(block: Block): Vector3[] {
   });
 }
 
-/** Stands each child of `letters` on its place, within the picture. */
+/** Puts each child of `letters` at its position, within the picture. */
 export function placeLetters(letters: HTMLElement | null, view: View, tops_m: readonly Vector3[]): void {
   for (const [index, letter] of [...(letters?.children ?? [])].entries()) {
     const top_m = tops_m[index];

@@ -45,7 +45,7 @@ export class VibrationReader {
     return this.written - this.at;
   }
 
-  /** The newest samples. What is no number is silence. Too many: the oldest are left out. */
+  /** The newest samples. What is not a number is silence. Too many: the oldest are left out. */
   push(samples: ArrayLike<number>): void {
     for (let index = 0; index < samples.length; ++index) {
       const value = samples[index]!;

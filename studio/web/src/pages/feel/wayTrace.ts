@@ -1,4 +1,4 @@
-/** Heights over the way of the tip, the newest of them: a row only where the tip has moved on. */
+/** Heights over the path length of the tip, the newest of them: a row only where the tip has moved. */
 export class WayTrace {
   private way: number[] = [];
   private height: number[] = [];

@@ -28,7 +28,7 @@ const SHOWS: { value: Show; label: string }[] = [
   { value: "warp", label: "Warp" },
 ];
 
-/** Draw textures onto a mesh (seed §5.4). */
+/** Draw textures onto a mesh (thesis §5.4). */
 export default function PaintPage() {
   const paint = painting.value;
   const [block, setBlock] = useState<Block | null>(null);

@@ -4,7 +4,7 @@ import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import type { SceneTextureName } from "./painting";
 
-/** Another texture in the place of one that the scene has; coordinates stay (seed §5.4). */
+/** Another texture in the place of one that the scene has; coordinates stay (thesis §5.4). */
 export function SwapPanel({ textures, swaps }: { textures: SceneTextureName[]; swaps: Record<string, string> }) {
   return (
     <Panel title="Swap textures" collapsible open={textures.length > 0}>

@@ -28,7 +28,7 @@ export function TexturePreview({ file }: { file: string }) {
   );
 }
 
-/** Draws the heights; tells how large they are. */
+/** Draws the heights; states how large they are. */
 function draw(canvas: HTMLCanvasElement | null, block: Block): string {
   const heights = block.arrays.height_m;
   const context = canvas?.getContext("2d");

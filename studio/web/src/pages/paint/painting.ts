@@ -19,11 +19,11 @@ export interface PaintSection {
   swaps: Record<string, string>;
   /** The stroke that is drawn on; -1: none. */
   current: number;
-  /** The scene that was written last from what is here; "": none, or something was changed since. */
+  /** The scene that was last written with the present content; "": none, or the content has changed since. */
   written: string;
 }
 
-/** What the server says of a stroke that it has painted, or why it could not. */
+/** What the server states of a stroke that it has painted, or why it could not. */
 export interface StrokeFigures {
   fault?: string;
   path_length_m?: number;

@@ -10,7 +10,7 @@ import { merged } from "./mergeState";
 import { agrees, gainOf, gainWords, mergeFigures, mergeKey, ratioWords, strokesOf } from "./merging";
 import type { ProcessSection } from "./processing";
 
-/** The verdict on the merge, what it gains, its figures. */
+/** The verdict on the merge, what it gains, its values. */
 export function MergeResults({ section }: { section: ProcessSection }) {
   const shown = merged.value;
   if (!shown) return <Panel title="Merge" testId="merge-result" grow><p class="empty">Not merged yet.</p></Panel>;

@@ -7,13 +7,13 @@ import type { ProcessSection } from "./processing";
 
 export interface Merged {
   block: Block;
-  /** Of what it was made. */
+  /** The inputs that it was made of. */
   key: string;
 }
 
 export const merged = signal<Merged | null>(null);
 export const merging = signal(false);
-/** Why there is no merge; "": there is one, or none was asked for. */
+/** Why there is no merge yet; "": there is one, or none was requested. */
 export const mergeFault = signal("");
 
 /** The title of the server's job. */

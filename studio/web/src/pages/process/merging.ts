@@ -42,10 +42,10 @@ export function strokeChoices(entries: readonly Entry[], chosen: readonly string
   return [...there, ...chosen.filter((name) => !known.has(name)).map((name) => ({ name, kind: "missing" as const }))];
 }
 
-/** All that a merge depends on: one of another key is not of what is chosen now. */
+/** All that a merge depends on: a merge with another key is out of date. */
 export const mergeKey = (section: ProcessSection): string => JSON.stringify([mergeOf(section), section.config]);
 
-/** The figures that a merge has: it has no motion of its own. */
+/** The values that a merge has: it has no motion of its own. */
 export const mergeFigures = <Figure extends { group: string; key: string }>(figures: readonly Figure[]): Figure[] =>
   figures.filter(({ group, key }) => group === "Roughness" || group === "Pattern" || key.startsWith("profile."));
 

@@ -13,7 +13,7 @@ export class NewestWins {
     private readonly now_ms: () => number = () => performance.now(),
   ) {}
 
-  /** Asks now, or as soon as the one before is answered. `work` is told whether its answer is still the newest. */
+  /** Asks now, or as soon as the one before is answered. `work` is informed whether its answer is still the newest. */
   ask(work: (isNewest: () => boolean) => Promise<void>): void {
     const mine = ++this.serial;
     const begin = () => work(() => mine === this.serial);

@@ -52,7 +52,7 @@ export const scanTitle = (scan: ScanName): string => (scan.segment ? `${scan.rec
 
 export const isSameScan = (a: ScanName, b: ScanName): boolean => a.recording === b.recording && a.segment === b.segment;
 
-/** The index of what is looked at; −1 where nothing is chosen. */
+/** The index of the selected scan; −1 without a selection. */
 export const currentIndex = ({ scans, current }: ProcessSection): number => Math.min(current, scans.length - 1);
 
 /** A section with a recording more, which is looked at; with one that is there already, that one. */
@@ -68,7 +68,7 @@ export function withoutScan(section: ProcessSection, index: number): ProcessSect
   return { ...section, scans, current };
 }
 
-/** A control that stands in front, beside the form of all settings. */
+/** A control that is in front, next to the form of all settings. */
 export interface Knob {
   path: string;
   label: string;

@@ -25,7 +25,7 @@ export function ProfilePlot() {
     // The refined way begins where the path does; the live one is laid onto it.
     const shift_mm = 1e3 * (arrays?.s_m ? (last!.head.difference?.shift_m ?? 0) : 0);
     const out: Series[] = [];
-    // A live profile that had too little to go by is of no use beside the refined one.
+    // A live profile that had too little data is not shown with the refined one.
     if (y.length > 0 && (!arrays?.s_m || isLiveUsable(last!.head.difference)))
       out.push({ label: "while scanning", x: shift_mm === 0 ? live.s_m.values : live.s_m.values.map((s_mm) => s_mm + shift_mm), y, ...band(y, live.sigma_m.values), colour: 2 });
     if (arrays?.s_m) {

@@ -9,7 +9,7 @@ import { openInProcess } from "./commands";
 import { isLiveUsable } from "./scanState";
 import { refined, state } from "./stream";
 
-/** The last scan worked out in full, and how the live profile lies against it. */
+/** The last scan worked out in full, and its difference from the live profile. */
 export function ResultPanel() {
   const head = refined.value?.head;
   return (

@@ -33,7 +33,7 @@ const ACCELERATION = [
   { label: "z", colour: 4 as const },
 ];
 
-/** Record a surface and watch its profile grow (seed Fig. 7 and §7.2). */
+/** Record a surface and watch its profile grow (thesis Fig. 7 and §7.2). */
 export default function ScanPage() {
   const [known, setKnown] = useState<ConfigField[]>([]);
   useEffect(follow, []);
@@ -92,7 +92,7 @@ export default function ScanPage() {
   );
 }
 
-/** The stream's figures for tests and scripts. */
+/** The stream's values for tests and scripts. */
 function StreamLine() {
   const { median_ms, late_ms, rows, lost, profile_ms, profile_late_ms } = figures.value;
   const told = (time_ms: number) => (Number.isFinite(time_ms) ? time_ms.toFixed(1) : "");

@@ -112,7 +112,7 @@ class PathLine {
     this.object.onAfterRender = () => (this.notUploaded = Infinity);
   }
 
-  /** Takes what is new; true if there was something. */
+  /** Reads new data; true if there was any. */
   follow(isDark: boolean): boolean {
     if (path.version === this.version && isDark === this.wasDark) return false;
     if (path.generation !== this.generation || isDark !== this.wasDark || path.length < this.drawn) this.drawn = 0;
@@ -206,7 +206,7 @@ function square(): number[] {
   return corners.flatMap((corner, index) => [...corner, 0, ...corners[(index + 1) % 4]!, 0]);
 }
 
-/** The camera at the world's origin with the edges of what it sees, 0.1 m far. */
+/** The camera at the world's origin with the edges of its field of view at 0.1 m. */
 function frustumOf({ width, height, fx, fy, cx, cy }: NonNullable<SourceState["camera"]>) {
   const far_m = 0.1;
   const corners = [[0, 0], [width, 0], [width, height], [0, height]].map(([u, v]) => [((u! - cx) / fx) * far_m, ((v! - cy) / fy) * far_m, far_m]);

@@ -6,7 +6,7 @@ import { Panel } from "../../ui/Panel";
 import { bodyWords, contactWords, gravityWords, objectHint, lostRows, sensorWords, type Words } from "./scanState";
 import { figures, state } from "./stream";
 
-/** How probe and tracker stand: states, rates, losses, contact, gravity, delay. */
+/** The states of probe and tracker, rates, losses, contact, gravity, delay. */
 export function SensorsPanel() {
   const now = state.value?.open ? state.value : null;
   const recorder = now?.recorder;

@@ -9,7 +9,7 @@ import { complain } from "../../ui/toast";
 import { useState } from "preact/hooks";
 import { setSettings, waitsForOpening } from "./settings";
 
-/** What is tuned while one looks at the profile (seed §7.2), and the door to all settings. */
+/** What is tuned while one looks at the profile (thesis §7.2), and the link to all settings. */
 export function TuningPanel({ fields }: { fields: readonly ConfigField[] }) {
   const [all, setAll] = useState(false);
   const value = (path: string) => fields.find((field) => field.path === path)?.value;

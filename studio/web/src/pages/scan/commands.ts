@@ -1,4 +1,4 @@
-// What the operator tells the recorder.
+// The operator's commands to the recorder.
 import { call } from "../../net/connection";
 import { edit, valueAt } from "../../state/document";
 import { go } from "../../app/go";
@@ -25,7 +25,7 @@ export const stop = () => can().stop && call("scan.stop");
 export const startOrStop = () => (can().stop ? stop() : start());
 export const segment = (name = "") => can().segment && call("scan.segment", { name });
 
-/** Takes the last segment out; until the recording is closed it can be brought back. */
+/** Discards the last segment; it can be restored until the recording is closed. */
 export const discard = () => can().discard && call("scan.discard");
 export const rescan = () => can().rescan && call("scan.rescan");
 export const restore = () => can().restore && call("scan.restore");

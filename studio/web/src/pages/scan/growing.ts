@@ -27,7 +27,7 @@ export class Column {
 }
 
 /**
- * What a stream of blocks has grown to. A block of a generation that begins at 0 begins anew; one that does not go on
+ * What a stream of blocks has grown to. A block of a generation that begins at 0 starts again; one that does not continue
  * where the last ended asks for the whole.
  */
 export class Growing<Names extends string> {
@@ -54,7 +54,7 @@ export class Growing<Names extends string> {
     const { generation, first } = block.head as { generation: number; first: number };
     if (first === 0) this.begin(generation);
     else if (generation !== this.generation || first > this.length) return this.askAll();
-    // A whole that was asked for may overlap with what came meanwhile.
+    // A whole that was asked for may overlap with blocks that came meanwhile.
     const skip = this.length - first;
     for (const name of Object.keys(this.names) as Names[]) {
       const values = block.arrays[name] as NumberArray | undefined;
@@ -75,7 +75,7 @@ export class Growing<Names extends string> {
   }
 }
 
-/** Counts rows that a stream's blocks have left out; each says which row its first one is. */
+/** Counts rows that a stream's blocks have left out; each states which row its first one is. */
 export class RowCounter {
   private next = -1;
   rows = 0;

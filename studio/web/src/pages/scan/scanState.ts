@@ -1,4 +1,4 @@
-// What the server says of a scan (topic "scan.state"), and the words and lamps for it.
+// What the server states of a scan (topic "scan.state"), and the words and lamps for it.
 import { fixed } from "../../ui/format";
 import type { LampState } from "../../ui/Lamp";
 
@@ -23,7 +23,7 @@ export interface SegmentInfo {
   open: boolean;
 }
 
-/** A marker body besides the probe's, such as the one on the object. */
+/** A marker body in addition to the probe's, such as the one on the object. */
 export interface BodyState {
   name: string;
   rows: number;
@@ -144,7 +144,7 @@ export function gravityWords(recorder: RecorderState | undefined): Words {
   return { lamp: "warn", word: "assumed: keep the probe still" };
 }
 
-/** Rows that are missing in the recording, for whatever reason. */
+/** Rows that are missing in the recording, for any reason. */
 export const lostRows = (recorder: RecorderState): number =>
   recorder.link.lost_samples + recorder.probe.overflowed + recorder.poses.overflowed;
 
@@ -166,7 +166,7 @@ export function discardedWords(state: ScanState | null): string {
   return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; “Undo discard” (U) restores it until the recording is closed.`;
 }
 
-/** A live profile that tells something of the surface: it agrees with the refined one. */
+/** True for a live profile that agrees with the refined one. */
 export const isLiveUsable = (difference: { correlation: number | null } | null | undefined): boolean => (difference?.correlation ?? 0) >= 0.5;
 
 /** Which commands make sense now. In Auto a source that plays is still started by hand. */

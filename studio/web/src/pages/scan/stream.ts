@@ -9,7 +9,7 @@ import type { ScanState } from "./scanState";
 
 const kPing_ms = 3000;
 const kPings = 4;
-const kDoubt_ms = 25; // a clock that is less well known tells no delay
+const kDoubt_ms = 25; // a clock that is less well known gives no delay
 const kFigures_ms = 250;
 const kSilent_ms = 2000;
 const kPause_s = 0.5;
@@ -134,7 +134,7 @@ function takeProfile(block: Block): void {
     profileLatencies.clear();
     undrawn_ns.length = 0;
   }
-  // A part of the past that comes at once, after a change of the settings, tells no delay.
+  // A part of the past that comes at once, after a change of the settings, gives no delay.
   const grown = profile.length - before;
   if (!anew && grown > 0 && grown <= kFewPoints && !document.hidden) undrawn_ns.push(block.head.motion_ns as number);
   void drawProfile();
@@ -166,7 +166,7 @@ function takeRows(block: Block): void {
   const t_s = block.arrays.t_s!;
   rows.take(block.head.sequence, t_s.length);
   const forces = block.arrays.force_N!;
-  // After a pause the plots begin anew: no line goes across it.
+  // After a pause the plots start again: no line goes across it.
   if (t_s.length > 0 && acceleration.length > 0 && t_s[0]! - acceleration.newest_s > kPause_s) {
     acceleration.clear();
     force.clear();

@@ -1,4 +1,4 @@
-// What a study is, how a session stands and what came of it, as the server says it (docs/studio-study.md); and how that is put.
+// What a study is, the state of a session and its results, as the server sends them (docs/studio-study.md), and the words for them.
 import type { Series } from "../../plot/series";
 import { number, withError } from "../../ui/format";
 
@@ -33,7 +33,7 @@ export interface Session {
   participant: string;
   device: string;
   trial: number | null;
-  /** How many there are; null where only the end tells. */
+  /** The number of trials; null if it is known only at the end. */
   of: number | null;
   answers: number;
   touching: boolean;

@@ -1,4 +1,4 @@
-// How the session stands, the same in every window; and what is asked of the server.
+// The state of the session, the same in every window; and what is asked of the server.
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
 import { call, link, onEvent } from "../../net/connection";
 import { edit, section } from "../../state/document";
