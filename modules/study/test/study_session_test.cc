@@ -19,6 +19,7 @@
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
 #include "asperity/study/study_log.h"
+#include "asperity/study/study_table.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity {
@@ -222,7 +223,7 @@ TEST(StudyLog, KnowsWhatWasTakenBack) {
 
 TEST(StudyLog, WritesTimesInWholeMilliseconds) {
   StudySession session(study_of(StudyMethod::kPairs, 32, 1), "p01", 1);
-  const std::regex milliseconds(R"(answer,.*,,,([0-9]+(\.[0-9]{1,3})?),([0-9]+(\.[0-9]{1,3})?),\n)");
+  const std::regex milliseconds(R"(answer,.*,,,([0-9]+(\.[0-9]{1,3})?),([0-9]+(\.[0-9]{1,3})?),0,0,0,0,\n)");
   while (session.trial()) {
     const int k = session.trial()->number;
     const std::string row = format_answer_row(session, session.give(0, 1.0 / k, 12.3456 * k), "");
@@ -232,7 +233,8 @@ TEST(StudyLog, WritesTimesInWholeMilliseconds) {
     EXPECT_NEAR(std::stod(parts[1]), 1.0 / k, 0.5001e-3);
     EXPECT_NEAR(std::stod(parts[3]), 12.3456 * k, 0.5001e-3);
   }
-  EXPECT_EQ(format_taken_back_row(1, 1.3939999, ""), "taken_back,1,,,,,,,,,,,1.394,\n");
+  EXPECT_EQ(format_taken_back_row(1, 1.3939999, ""), "taken_back,1,,,,,,,,,,,1.394,,,,,\n");
+  EXPECT_EQ(format_taken_back_row(1, 1.3939999, "", 1), "taken_back,1,,,,,,,,,,,1.394,\n");
 }
 
 // Written before times were rounded and textures had check sums.
@@ -246,6 +248,60 @@ TEST(StudyLog, ReadsThoseOfBefore) {
   const StudyLog log = parse_study_log(text, "log");
   EXPECT_TRUE(log.textures_crc32.empty());
   EXPECT_EQ(log.session.answers().front().response_s, 1.3940000000000001);
+}
+
+TEST(StudyLog, HasTimesOfTouchAndForces) {
+  StudySession session(study_of(StudyMethod::kPairs, 2, 1), "p01", 1);
+  std::string text = format_log_head(session, crcs_of(session));
+  const std::array<TileTouch, 2> touches{TileTouch{0.25, 0.5}, TileTouch{1.5004, 1.25}};
+  text += format_answer_row(session, session.give(0, 3.0, 3.0, touches), "");
+  EXPECT_THAT(text, HasSubstr(",3,3,0.25,1.5,0.5,1.25,\n"));
+  const StudyLog log = parse_study_log(text, "log");
+  EXPECT_EQ(log.version, 2);
+  EXPECT_EQ(log.session.answers().front().touches[0], touches[0]);
+  EXPECT_EQ(log.session.answers().front().touches[1], (TileTouch{1.5, 1.25}));
+  std::string negative = text;
+  negative.replace(negative.find(",0.5,1.25,"), 5, ",-0.5");
+  EXPECT_THAT(fault_of([&] { parse_study_log(negative, "log"); }), HasSubstr("not a force"));
+}
+
+// As a program without times of touch wrote them; they are continued in their own columns.
+TEST(StudyLog, OfVersion1IsReadAndContinued) {
+  StudySession session(study_of(StudyMethod::kPairs, 2, 1), "p01", 1);
+  std::string text = format_log_head(session, crcs_of(session));
+  text.replace(text.find("study_log 2"), 11, "study_log 1");
+  const std::string added = ",touch_left_s,touch_right_s,force_left_N,force_right_N";
+  text.erase(text.find(added), added.size());
+  text += format_answer_row(session, session.give(1, 1.5, 2.0), "", 1);
+  text += format_answer_row(session, session.give(0, 1.5, 4.0), "", 1);
+  const StudyLog log = parse_study_log(text, "log");
+  EXPECT_EQ(log.version, 1);
+  EXPECT_EQ(log.session.answers().size(), 2U);
+  EXPECT_EQ(log.session.answers().front().touches[0], TileTouch());
+}
+
+TEST(StudyTable, HasARowForEachAnswerOfAllParticipants) {
+  const auto log_for = [](const std::string& participant) {
+    StudySession session(study_of(StudyMethod::kPairs, 2, 1), participant, 1);
+    std::string text = format_log_head(session, crcs_of(session));
+    text += format_answer_row(session, session.give(0, 1.0, 1.0, {TileTouch{0.5, 1.0}, TileTouch{0.25, 2.0}}), "");
+    session.take_back();
+    text += format_taken_back_row(1, 2.0, "");
+    text += format_answer_row(session, session.give(1, 1.0, 3.0, {TileTouch{0.5, 1.0}, TileTouch{0.25, 2.0}}), "");
+    return parse_study_log(text, "log");
+  };
+  const std::string table = format_study_table({log_for("p01"), log_for("p02")});
+  CsvReader rows(table, "table");
+  std::vector<std::string> participants;
+  while (rows.next()) {
+    participants.emplace_back(rows.cell(rows.require("participant")));
+    EXPECT_EQ(rows.cell(rows.require("chosen")), "right");
+    EXPECT_EQ(rows.number(rows.require("touch_right_s")), 0.25);
+    EXPECT_EQ(rows.number(rows.require("force_right_N")), 2.0);
+    EXPECT_TRUE(rows.empty(rows.require("rating")));
+  }
+  EXPECT_THAT(participants, testing::ElementsAre("p01", "p02"));
+  EXPECT_THAT(fault_of([&] { format_study_table({log_for("p01"), log_for("p01")}); }), HasSubstr("give one of them"));
 }
 
 TEST(StudyLog, RefusesWhatItIsNot) {

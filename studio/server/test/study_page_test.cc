@@ -176,6 +176,38 @@ TEST_F(StudyPageTest, IsNotTouchedWhereNoForceIsCommanded) {
   EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("does not command forces"));
 }
 
+// An answer counts only after both textures were pressed on.
+TEST_F(StudyPageTest, TakesNoAnswerBeforeBothWereTouchedWithForce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  const Json first{{"trial", 1}, {"answer", 0}};
+  EXPECT_THAT(rig.ask("study.answer", first).error, HasSubstr("not both textures were touched with force"));
+  rig.press(false);
+  EXPECT_FALSE(rig.session()["may_answer"].get<bool>());
+  EXPECT_THAT(rig.ask("study.answer", first).error, HasSubstr("not both"));
+  rig.press(true);
+  EXPECT_TRUE(rig.session()["may_answer"].get<bool>());
+  EXPECT_EQ(rig.ask("study.answer", first).error, "");
+  EXPECT_FALSE(rig.session()["touched_left"].get<bool>()) << "of the next trial";
+  const StudyLog written = parse_study_log(log(), "log");
+  for (const TileTouch& touch : written.session.answers().front().touches) {
+    EXPECT_GE(touch.touch_s, 0.2);
+    EXPECT_GE(touch.force_N, 0.1);
+  }
+}
+
+TEST_F(StudyPageTest, BeginsWithConsentWhereItIsAskedFor) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  rig.document.edit("/study/study/consent", "I take part of my own will.", "consent");
+  EXPECT_THAT(rig.ask("study.begin").error, HasSubstr("has not agreed"));
+  EXPECT_THAT(rig.ask("study.begin", {{"consented", false}}).error, HasSubstr("has not agreed"));
+  EXPECT_EQ(rig.ask("study.begin", {{"consented", true}}).error, "");
+  EXPECT_THAT(log(), HasSubstr("I take part of my own will."));
+}
+
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);
