@@ -25,7 +25,7 @@ bool begins_with(std::string_view text, std::string_view lower) {
          });
 }
 
-// What ends a script or style element, or hides its end. Such text stands in strings and regular expressions alone,
+// What ends a script or style element, or hides its end. Such text is in strings and regular expressions alone,
 // where the backslash changes nothing.
 std::string inline_text(std::string_view text) {
   std::string out;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kLargestReport_bytes = 64U << 20U;
 constexpr std::size_t kLargestHead_bytes = 16U << 20U;
-constexpr std::size_t kDeepestHead = 34;  // a result.json, and where it stands
+constexpr std::size_t kDeepestHead = 34;  // a result.json, and its nesting
 constexpr std::string_view kBegin = "<script type=\"application/octet-stream\"";
 constexpr std::string_view kEnd = "</script>";
 
@@ -43,7 +43,7 @@ std::optional<std::string> kept_block(const std::filesystem::path& report, const
   } catch (const Error&) {
     return std::nullopt;
   }
-  // Each search goes on where the last one ended: the page is read once, whatever is in it.
+  // Each search continues where the last one ended, so that the page is read once.
   std::size_t end = 0;
   for (std::size_t at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, end)) {
     const std::size_t begin = page.find('>', at);

@@ -9,7 +9,7 @@ enum class MetricKind { kNumber, kCount, kYesNo, kText };
 
 // How one metric of result.json is shown: value times `factor` in `unit`.
 struct MetricRow {
-  std::string_view key;  // its place in result.json, dotted
+  std::string_view key;  // its position in result.json, dotted
   std::string_view label;
   std::string_view unit{};
   double factor = 1.0;

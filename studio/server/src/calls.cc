@@ -88,7 +88,7 @@ void Calls::dispatch(const Request& request) const noexcept {
       request.refuse(error);
     }
   } catch (...) {
-    // Not even the refusal could be sent: the browser waits, and the studio goes on.
+    // Not even the refusal could be sent: the browser waits, and the studio continues.
   }
 }
 

@@ -18,7 +18,7 @@ namespace asperity::studio {
 // a browser.
 class ClientTable {
  public:
-  // Called on any thread when a client that had nothing to be sent has something; must only hand it on.
+  // Called on any thread when a client that had nothing to be sent has something; must only pass it on.
   using Wake = std::function<void()>;
 
   static constexpr std::size_t kMostTopics = 64;
@@ -35,7 +35,7 @@ class ClientTable {
   // False if it had left.
   bool leave(ClientId client);
 
-  // Both throw Error for what is no name of a topic; subscribe for too many of them.
+  // Both throw Error for an invalid name of a topic; subscribe for too many of them.
   void subscribe(ClientId client, std::string_view topic);
   void unsubscribe(ClientId client, std::string_view topic);
   bool has_subscribers(std::string_view topic) const;

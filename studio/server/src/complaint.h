@@ -6,12 +6,12 @@
 
 namespace asperity::studio {
 
-// What a page says of work that failed, and what to do about it.
+// The message of a page about work that failed, and the advice.
 struct Complaint {
   std::string problem, hint;
 };
 
-// `hint` is for an error that brings none of its own. nullopt: the work was called off, of which nothing is to be said.
+// `hint` is for an error that brings none of its own. nullopt: the work was cancelled, and no message is needed.
 std::optional<Complaint> complaint_of(const std::exception_ptr& error, const std::string& hint);
 
 }  // namespace asperity::studio

@@ -9,11 +9,11 @@
 namespace asperity::studio {
 
 // The door of a running studio for commands of the same user: a Unix socket in a folder that only this user can enter,
-// which besides asks the system who is at the other end. One line of JSON each way.
+// which asks the system for the user at the other end. One line of JSON each way.
 class ControlSocket {
  public:
   // `answer` is called on a thread of its own; what it throws is answered as {"error":"…"}. Throws Error if there is
-  // no place for the socket.
+  // no folder for the socket.
   explicit ControlSocket(std::function<Json(const Json& request)> answer);
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;

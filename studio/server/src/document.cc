@@ -35,7 +35,7 @@ std::string section_name(std::string_view path) {
   return pointer.front();
 }
 
-// What stands at a path; null for nothing.
+// What is at a path; null for nothing.
 Json value_at(const Json& tree, const JsonPointer& pointer) {
   const Json* value = find_at(tree, pointer);
   return value == nullptr ? Json() : *value;
@@ -120,7 +120,7 @@ namespace {
   throw Error(why + "; the studio does not start, because its next save would replace this file");
 }
 
-// Nothing if there is no file.
+// Nothing without a file.
 std::optional<std::string> content_of(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_type type = std::filesystem::symlink_status(file, error).type();

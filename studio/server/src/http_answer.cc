@@ -17,7 +17,7 @@ std::optional<std::string> session_cookie(const HttpRequest& request, const Site
 }
 
 bool takes_gzip(const HttpRequest& request) {
-  if (!request.accept_encoding) return true;  // who names none takes any (RFC 9110, 12.5.3)
+  if (!request.accept_encoding) return true;  // a request that names none accepts any (RFC 9110, 12.5.3)
   std::string_view rest = *request.accept_encoding;
   while (!rest.empty()) {
     const std::size_t end = rest.find(',');

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, std::string>> safety_headers(const std::optio
 
 enum class Admission {
   kForeign,   // of another host or origin, or for another path: no WebSocket
-  kStranger,  // our own page, without the cookie: to be told so by close code 4401
+  kStranger,  // our own page, without the cookie: which close code 4401 states
   kWelcome,
 };
 struct Admitted {

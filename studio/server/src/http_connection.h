@@ -96,7 +96,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
                       });
   }
 
-  // Says that nothing more comes, and takes what the other side had still sent: closing a socket with unread bytes
+  // Ends the sending, and reads what the other side had still sent: closing a socket with unread bytes
   // would take the answer back from it.
   void finish() {
     if constexpr (std::is_same_v<Stream, TlsStream>) {

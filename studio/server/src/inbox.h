@@ -9,7 +9,7 @@
 
 namespace asperity::studio {
 
-// What other threads want done on the studio's thread, in order. Functions are thread-safe.
+// What other threads need done on the studio's thread, in order. Functions are thread-safe.
 class Inbox {
  public:
   using Work = std::function<void()>;

@@ -39,7 +39,7 @@ std::optional<std::string> reason_of(const std::exception_ptr& error) {
   }
 }
 
-// What jobs could not store, until a browser could be told. Thread-safe.
+// What jobs could not store. Thread-safe.
 class UnstatedLosses {
  public:
   void add(const Job& job, const std::exception_ptr& error) {
@@ -64,7 +64,7 @@ class UnstatedLosses {
   std::map<std::uint64_t, std::string> sentences_;
 };
 
-// The states of all jobs under way, told to the browsers as they change. Thread-safe.
+// The states of all running jobs, sent to the browsers as they change. Thread-safe.
 class Board {
  public:
   explicit Board(Hub& hub) : hub_(hub) {}
@@ -235,8 +235,8 @@ class Lane {
     }
   }
 
-  // What the work holds is let go on the studio's thread, where it was made. Its end is told when what it did can be
-  // seen.
+  // The work's objects are destroyed on the studio's thread, where they were made. Its end is reported when its result
+  // can be seen.
   void finish(const std::shared_ptr<Job>& job, std::exception_ptr error) {
     board_.losses.add(*job, error);
     post_([board = &board_, job, error] {

@@ -9,7 +9,7 @@
 
 namespace asperity::studio {
 
-// A place in a document: the keys and indices that lead to it from the root, written "/feel/textures/3" (RFC 6901).
+// A position in a document: the keys and indices that lead to it from the root, written "/feel/textures/3" (RFC 6901).
 using JsonPointer = std::vector<std::string>;
 using JsonSteps = std::span<const std::string>;
 
@@ -17,13 +17,13 @@ using JsonSteps = std::span<const std::string>;
 JsonPointer parse_json_pointer(std::string_view path);
 std::string format_json_pointer(JsonSteps pointer);
 
-// What stands there; nullptr for nothing.
+// What is there; nullptr for nothing.
 const Json* find_at(const Json& tree, JsonSteps pointer);
 inline Json* find_at(Json& tree, JsonSteps pointer) {
   return const_cast<Json*>(find_at(static_cast<const Json&>(tree), pointer));
 }
 
-// Sets what stands at `pointer`, which is not the root; with null takes it out. In a list an index below its size
+// Sets what is at `pointer`, which is not the root; with null takes it out. In a list an index below its size
 // replaces, the size or "-" appends. False if it leads nowhere: then nothing is changed.
 bool set_at(Json& tree, JsonSteps pointer, const Json& value);
 

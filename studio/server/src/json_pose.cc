@@ -48,7 +48,7 @@ Pose pose_of_json(const Json& json, std::string_view what) {
   if (!(std::abs(q.norm() - 1.0) <= kUnit)) {
     throw Error(std::string(what) + ": its quaternion has the length " + std::to_string(q.norm()) + ", not 1");
   }
-  // What was made unit once stays as it is, to the last digit: poses are told from each other by their numbers.
+  // What was made unit once stays as it is, to the last digit: poses are distinguished by their numbers.
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
   Eigen::Quaterniond unit = std::abs(q.norm() - 1.0) < kRounding ? q : q.normalized();
   if (unit.w() < 0.0) unit.coeffs() = -unit.coeffs();

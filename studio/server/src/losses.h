@@ -31,7 +31,7 @@ class Losses {
  private:
   std::mutex mutex_;
   std::vector<std::string> sentences_;
-  bool has_unnamed_ = false;  // there was no memory for a sentence
+  bool has_unnamed_ = false;  // no memory was left for a sentence
 };
 
 }  // namespace asperity::studio

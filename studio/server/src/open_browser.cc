@@ -19,7 +19,7 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-// A new file for the user alone; empty if there is no place.
+// A new file for the user alone; empty without a folder.
 std::filesystem::path private_file(const std::string& text) {
   const std::filesystem::path folder = is_set("XDG_RUNTIME_DIR") ? std::filesystem::path(std::getenv("XDG_RUNTIME_DIR"))
                                                                  : std::filesystem::temp_directory_path();

@@ -25,7 +25,7 @@ class Outbox {
   static constexpr std::size_t kMostMessages = 10'000;
   static constexpr std::size_t kMostMessageBytes = 64U << 20U;
 
-  // A frame of a topic. A kLatest one takes the place of one of the same topic that was not sent. Behind
+  // A frame of a topic. A kLatest one replaces one of the same topic that was not sent. Behind
   // kMaxSeriesBytes of series the oldest of them are dropped. Returns how many were.
   std::size_t push_topic(std::string_view topic, OutFrame frame, Delivery delivery);
   // An answer or event. False, and nothing is added, if too many are waiting; one always fits.

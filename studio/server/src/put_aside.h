@@ -5,7 +5,7 @@
 
 namespace asperity::studio {
 
-// What a studio cannot use of a file stays beside it, under a name that nothing had: NAME.unreadable or NAME.before,
+// What a studio cannot use of a file stays next to it, under a name that nothing had: NAME.unreadable or NAME.before,
 // then NAME.unreadable_2 and so on.
 
 // Renames the file to the first free NAME.unreadable, which is returned. Throws Error if it cannot be renamed; it is

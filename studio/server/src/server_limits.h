@@ -12,7 +12,7 @@ namespace asperity::studio {
 inline constexpr std::uint32_t kMostHeaderBytes = 8U << 10U;
 inline constexpr std::uint64_t kMostBodyBytes = 4U << 10U;
 inline constexpr auto kGuessDelay = std::chrono::milliseconds(250);
-// Open connections that are no WebSockets, or not yet.
+// Open connections that are not WebSockets, or not yet.
 inline constexpr int kMostHttpConnections = 64;
 // TLS handshakes that are begun: at most one in this time, in heaps of at most so many. Each costs a signature, which a
 // connected window must not wait for.

@@ -54,7 +54,7 @@ inline void set_headers(http::fields& fields, const std::vector<std::pair<std::s
   for (const auto& [name, value] : headers) fields.set(name, value);
 }
 
-// A place among the open connections.
+// One of the counted open connections.
 class Counted {
  public:
   explicit Counted(ServerState& server) : server_(&server) { ++server_->connections; }

@@ -40,7 +40,7 @@ class Sessions {
   std::optional<std::uint64_t> find(std::string_view cookie) const;
 
   // A WebSocket of a session; false if that was closed meanwhile. `close` is called once, on any thread, when the
-  // session is closed; must only hand it on.
+  // session is closed; must only pass it on.
   bool add_window(std::uint64_t session, ClientId client, std::function<void()> close);
   void remove_window(ClientId client);
   // The session that has this window; 0 if none has.
@@ -48,7 +48,7 @@ class Sessions {
 
   // A new token: the old one and all sessions end.
   void renew();
-  // False if there is no such session.
+  // False without such a session.
   bool close(std::uint64_t session);
   // In the order in which they were opened.
   std::vector<SessionInfo> list() const;

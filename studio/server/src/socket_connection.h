@@ -23,12 +23,12 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection<St
  public:
   SocketConnection(Stream stream, ServerState& server)
       : stream_(std::move(stream)), pause_(stream_.get_executor()), server_(server) {}
-  // Whatever ended it, an exception in a handler too, its place is free again.
+  // However it ended, also by an exception in a handler, it does not count any more.
   ~SocketConnection() {
     try {
       if (!server_.is_over) leave();
     } catch (const std::exception&) {
-      // Without memory for the event: the place is free all the same.
+      // Without memory for the event it does not count either.
     }
   }
   SocketConnection(const SocketConnection&) = delete;

@@ -138,7 +138,7 @@ class Studio {
     }
   }
 
-  // Without a place for its socket the studio runs all the same.
+  // Without a folder for its socket the studio runs all the same.
   void open_control() {
     try {
       control_.emplace([this](const Json& request) {
@@ -202,7 +202,7 @@ class Studio {
     }
   }
 
-  // A full disk must not end the studio: it is said once, and tried again until it works (file_saver.h).
+  // A full disk must not end the studio: it is stated once, and tried again until it works (file_saver.h).
   void cannot_save(const std::string& fault) {
     if (std::exchange(save_failed_, true)) return;
     note("The studio's state cannot be saved: " + fault,

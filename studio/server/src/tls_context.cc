@@ -37,7 +37,7 @@ using PrivateKey = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
   throw Error(printable(file.string(), 200) + ": " + why);
 }
 
-// What OpenSSL says of its last error, and forgets.
+// The message of OpenSSL's last error, which is cleared.
 std::string last_reason() {
   const unsigned long code = ERR_peek_last_error();
   const char* reason = ERR_reason_error_string(code);

@@ -166,7 +166,7 @@ TEST_F(AddPageTest, TheBeginningRemovesWhatAKilledStudioLeft) {
   EXPECT_FALSE(fs::exists(stale));
 }
 
-// A body that turns about all axes and moves, seen by a tracker at 100 Hz and felt by a sensor at 500 Hz.
+// A body that rotates about all axes and moves, seen by a tracker at 100 Hz and measured by a sensor at 500 Hz.
 struct Motion {
   std::string poses = "time [ms];px [mm];py [mm];pz [mm];qw;qx;qy;qz\n";
   std::string sensor = "time [ms];ax [g];ay [g];az [g];gx [deg/s];gy [deg/s];gz [deg/s]\n";

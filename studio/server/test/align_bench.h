@@ -56,7 +56,7 @@ class AlignBench : public PageRig<> {
   // 5 mm and 5 degrees off.
   Pose guess() const { return random_motion(5e-3, 5.0 * std::numbers::pi / 180.0, p_mesh_m[0], 4) * T_mesh_world; }
 
-  // Does what is posted until the event has been told so often.
+  // Does what is posted until the event has been sent so often.
   std::vector<Json> wait_for_events(const std::string& name, std::size_t count) {
     wait([&] { return hub.events(name).size() >= count; });
     return hub.events(name);

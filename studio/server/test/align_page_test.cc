@@ -48,7 +48,7 @@ TEST_F(AlignPageTest, SlidersAreThePose) {
     EXPECT_EQ(six["shift_m"][k], expected.shift_m[k]);
     EXPECT_EQ(six["turn_deg"][k], expected.rotation_deg[k]);
   }
-  // About the path's middle: the shift is where the middle lies, and turning leaves it there.
+  // About the path's middle: the shift is where the middle is, and turning leaves it there.
   const Json about = {0.1, 0.2, -0.3};
   Json there = bench_.call("align.sliders", args_of({{"pose", pose}, {"about_world_m", about}})).result;
   const Eigen::Vector3d middle_m = bench_.pose() * Eigen::Vector3d(0.1, 0.2, -0.3);
@@ -116,7 +116,7 @@ TEST_F(AlignPageTest, ResidualsAreThoseOfBruteForce) {
         least_m = std::min(least_m, alone.closest_point(p_m).distance_m);
       }
       EXPECT_NEAR(std::abs(distances[i]), least_m, 1e-8);  // floats of the points about their middle
-      // The pebble is about star-shaped: farther out is outside, where the distance says anything.
+      // The pebble is about star-shaped: farther out is outside, where the sign of the distance matters.
       if (least_m > 1e-3) {
         EXPECT_EQ(distances[i] > 0.0F, p_m.norm() > bench_.bvh.closest_point(p_m).p_m.norm());
       }

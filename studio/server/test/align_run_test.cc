@@ -113,7 +113,7 @@ TEST_F(AlignRunTest, AScanIsAddedToASceneAndListedWithItsPose) {
   EXPECT_EQ(opened.head.at("stored")[0].at("T_mesh_world").size(), 7U);
   EXPECT_GT(opened.array<std::uint32_t>("laid_triangle").size(), 100U);
   EXPECT_TRUE(opened.array<std::uint32_t>("covered_triangle").empty());
-  // It would lie on the texture of the first, which itself would be replaced and is no overlap.
+  // It would overlap the texture of the first, which itself would be replaced and is not an overlap.
   const auto on_texture = [&] {
     const Json pose = json_of_pose(bench_.T_mesh_world);
     const ReadBlock block(bench_.call("align.residuals", args_of({{"pose", pose}})).block);
@@ -150,7 +150,7 @@ TEST_F(AlignRunTest, APoseMovedByHandHasAVerdictOfItsOwn) {
 }
 
 TEST_F(AlignRunTest, TheRunnerUpIsTakenAndKept) {
-  // From anywhere there is nearly always another place that is next best.
+  // From anywhere there is nearly always another position that is next best.
   bench_.document.edit("/align/config", parse_json(R"({"search.rotations":"200","search.positions":"20"})"), "");
   const Json result = bench_.call("align.run", args_of({{"guess", false}})).result;
   ASSERT_TRUE(result.is_object());

@@ -163,7 +163,7 @@ TEST_F(Control, RefusesWhatItDoesNotKnow) {
 TEST_F(Control, WaitsForNobodyLong) {
   open();
   const int silent = connect_to_door();
-  // Behind one that says nothing the next is heard within the time that one may take.
+  // After a silent one the next is heard within the time that one may take.
   const int next = connect_to_door();
   send_all(next, "{\"request\":\"list\"}\n");
   std::optional<std::string> line;

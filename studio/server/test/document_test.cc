@@ -190,7 +190,7 @@ TEST_F(DocumentTest, SectionsThatNoPageHasAreKept) {
   }
 }
 
-// A loop, which fails as EIO or EACCES would, a link to a disk that is not there, and what is no file.
+// A loop, which fails as EIO or EACCES would, a link to a disk that is not there, and what is not a file.
 TEST_F(DocumentTest, AFileThatCannotBeReadIsRefusedAndUntouched) {
   const auto refusal = [](const std::string& why) {
     return ThrowsMessage<Error>(AllOf(HasSubstr(why), HasSubstr("the studio does not start")));
@@ -291,7 +291,8 @@ struct RenamedConfig {
   }
 };
 
-// A project of an older version: its settings have the names that they have now, for the forms and for what is written.
+// A project of an older version: its settings have the names that they have now, for the forms and for all that is
+// written.
 TEST_F(DocumentTest, SettingsOfAnOlderVersionGetTheirPresentNames) {
   const auto open = [this] {
     auto out = std::make_unique<Document>(file_);

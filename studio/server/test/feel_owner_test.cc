@@ -45,7 +45,7 @@ TEST(FeelPage, AnotherWindowThatHasTheForceKeepsIt) {
   EXPECT_THAT(rig.call("feel.start").error, HasSubstr("already"));
 }
 
-// Whoever acquires the lease after the owner's silence does not bring the force back to the owner's hand.
+// The one who acquires the lease after the owner's silence does not bring the force back to the owner's hand.
 TEST(FeelPage, ARunBelongsToTheOneWhoStartedIt) {
   FeelRig rig;
   rig.choose_height_maps();
@@ -60,7 +60,7 @@ TEST(FeelPage, ARunBelongsToTheOneWhoStartedIt) {
   EXPECT_TRUE(rig.wait([&] { return rig.hub.ticks().size() > ticks + 300; }));
   const std::vector<FeelHub::Tick> silent = rig.hub.ticks();
   for (std::size_t k = ticks; k < silent.size(); ++k) ASSERT_EQ(silent[k].out_N, 0.0);
-  // By its own word it may go on with it.
+  // By its own request it may take it over.
   EXPECT_NE(rig.call("feel.take", Json::object(), FeelRig::kOwner).error, "");
   EXPECT_EQ(rig.call("feel.take", Json::object(), kOther).error, "");
   EXPECT_EQ(rig.status()["owner"], kOther);

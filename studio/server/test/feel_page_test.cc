@@ -58,7 +58,7 @@ TEST(FeelPage, IsFeltWithThePointerWhileItHasTheForce) {
     return std::count(state["limited"].begin(), state["limited"].end(), "not-permitted") == 1;
   }));
 
-  // And it comes back with the lease.
+  // And it returns with the lease.
   rig.own_force();
   EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().out_N > 0.3; }));
 }
@@ -174,7 +174,7 @@ TEST(FeelPage, WritesALog) {
   EXPECT_TRUE(std::filesystem::exists(rig.folder / "feel_2.csv"));
 }
 
-// The run hands it over as soon as it is asked to, and at its end.
+// The run passes it over as soon as it is asked to, and at its end.
 TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
   testkit::TempDir folder;
   std::vector<FinishedLog> ended;
@@ -229,7 +229,7 @@ TEST(FeelPage, ShowsTheSceneWithItsHeights) {
   EXPECT_EQ(head["objects"], 1U);
   ASSERT_EQ(head["textures"].size(), 4U);
   EXPECT_EQ(rig.status()["models"][2], "normal-perturbation");
-  // What only feels different is not drawn anew.
+  // A change of the force alone is not drawn again.
   const Json drawn = rig.status()["revision"], felt = rig.status()["felt"];
   rig.document.edit("/feel/settings/render.friction", 0.3, "friction");
   EXPECT_TRUE(rig.wait([&] { return rig.status()["felt"] != felt; }));

@@ -72,7 +72,7 @@ TEST(TickStream, TellsEveryTickOnce) {
   EXPECT_NEAR(state["speed_mps"].get<double>(), 0.1, 1e-6);
 }
 
-// Two surfaces under the same point and with the same force on the hand are told alike.
+// Two surfaces under the same point and with the same force on the hand are reported alike.
 TEST(TickStream, TellsNothingOfTheSurfaceWhenBlind) {
   const auto told = [](bool other) {
     Frames hub;

@@ -103,7 +103,7 @@ TEST_F(ProcessMergeTest, MergesAndWritesAsTheCommandLine) {
     ASSERT_FALSE(content(folder / "by_hand" / file).empty()) << file;
     EXPECT_TRUE(content(folder / "merged" / file) == content(folder / "by_hand" / file)) << file;
   }
-  // What is there is only replaced if it is said; and never something else than results.
+  // What is there is only replaced if it is stated; and never something else than results.
   EXPECT_THAT(call("process.write_merge", Json{{"name", "merged"}}).error, HasSubstr("exists already"));
   EXPECT_EQ(call("process.write_merge", Json{{"name", "merged"}, {"replace", true}}).error, "");
   EXPECT_NE(call("process.write_merge", Json{{"name", "a"}, {"replace", true}}).error, "");

@@ -9,7 +9,7 @@ struct ssl_st;
 
 namespace asperity::studio {
 
-// A browser's end of a connection over plain sockets, which sends whatever it is told. Waits at most ten seconds for
+// A browser's end of a connection over plain sockets, which sends any bytes. Waits at most ten seconds for
 // anything; throws std::runtime_error then.
 class RawClient {
  public:
@@ -45,7 +45,7 @@ class RawClient {
     // Of a close frame.
     int close_code() const;
   };
-  // The next frame that is no ping, which is answered; nullopt if the other side has closed.
+  // The next frame that is not a ping, which is answered; nullopt if the other side has closed.
   std::optional<Frame> next_frame();
 
  private:

@@ -19,7 +19,7 @@ class ReadBlock {
     head = parse_json(frame_.substr(8, bytes));
   }
 
-  // The numbers of an array; empty if there is none of the name. The type is trusted.
+  // The numbers of an array; empty if there is none of the name. The type is accepted.
   template <class T>
   std::vector<T> array(const std::string& name) const {
     for (const Json& each : head.at("arrays")) {

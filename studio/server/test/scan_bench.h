@@ -12,7 +12,7 @@
 
 namespace asperity::studio {
 
-// A Scan page, and what it last told.
+// A Scan page, and what it last stated.
 class ScanBench : public PageRig<> {
  public:
   ScanBench() { open(make_scan_page(shared)); }

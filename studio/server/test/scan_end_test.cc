@@ -74,7 +74,7 @@ TEST_F(ScanEnd, ARecordingThatWaitsToBeFinishedIsFinished) {
   EXPECT_EQ(read_recording(bench_.folder / "scan").info.segments.size(), 1U);
 }
 
-// The page has not yet got it: whoever drops it states its loss.
+// The page has not yet got it: dropping it reports its loss.
 TEST_F(ScanEnd, ARecordingThatWasJustOpenedAndCannotBeFinishedIsStated) {
   bench_.begin("scan.open");
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);

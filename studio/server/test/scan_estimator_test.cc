@@ -53,7 +53,7 @@ TEST(ScanEstimator, TrustsNothingWhereThePosesAreTooFew) {
   EXPECT_NE(estimator.waiting(), "");
 }
 
-// The probe says its rate and its converter's range only after it was opened.
+// The probe states its rate and its converter's range only after it was opened.
 TEST(ScanEstimator, TakesWhatTheProbeSaysOfItselfLater) {
   SimulationConfig config =
       make_simulation_config("protoboard", "open");  // its edges drive the converter to its limits

@@ -182,7 +182,7 @@ TEST(ScanPage, BringsBackWhatWasDiscarded) {
   EXPECT_EQ(after.head.at("took_s"), before.head.at("took_s"));
   EXPECT_EQ(after.head.at("difference"), before.head.at("difference"));
   EXPECT_EQ(ReadBlock(bench.call("scan.profile").block).array<double>("s_m"), live_before);
-  // A take that was scanned again is there beside the new one, and is what is shown.
+  // A segment that was scanned again is shown next to the new one.
   scan_once(bench, "scan.rescan");
   EXPECT_EQ(ReadBlock(bench.refined()).head.at("segment"), "segment_1");
   bench.ask("scan.restore");
@@ -242,13 +242,13 @@ TEST(ScanPage, RefinesTheSegmentThatAnotherFollowsAtOnce) {
   ASSERT_TRUE(bench.wait([&] { return !bench.storing(); }));
   const auto stopped = std::chrono::steady_clock::now();
   EXPECT_TRUE(bench.wait([&] { return is_refined("second"); }));
-  // The second is half a second long; when it is finished, it is what is shown. Refining takes each about as long.
+  // The second is half a second long; when it is finished, it is what is shown. Refining takes about as long for each.
   if (!is_refined("segment_1")) {
     ASSERT_GT(std::chrono::steady_clock::now() - stopped, std::chrono::milliseconds(250))
         << "the first was not refined";
     GTEST_SKIP() << "the machine was busy: refining the first took longer than the second";
   }
-  // The live profile has begun anew with the second.
+  // The live profile has begun again with the second.
   const ReadBlock live(bench.call("scan.profile").block);
   EXPECT_GT(live.head.at("generation").get<int>(), generation);
   ASSERT_FALSE(live.array<double>("s_m").empty());

@@ -1,4 +1,4 @@
-// What the Scan page refuses, and what it says of it.
+// What the Scan page refuses, and its messages.
 #include <gmock/gmock.h>
 
 #include <fcntl.h>

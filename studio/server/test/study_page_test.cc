@@ -26,7 +26,7 @@ TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
   EXPECT_EQ(rig.status()["phase"], "finished");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_THAT(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).error, HasSubstr("being written"));
-  // By whatever name.
+  // By any name.
   std::filesystem::create_symlink("study_p01.study.csv", folder / "other.study.csv");
   for (const char* name : {"./study_p01.study.csv", ".//study_p01.study.csv", "other.study.csv"}) {
     EXPECT_THAT(rig.ask("study.results", {{"log", name}}).error, HasSubstr("being written")) << name;
@@ -58,7 +58,7 @@ TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
   EXPECT_EQ(block.head["textures"].size(), 2U);
   EXPECT_TRUE(block.array<float>("height_0").empty());
   EXPECT_TRUE(rig.ask("feel.status").result["warnings"].empty());
-  // Pressed into a tile: the hand feels it, and the browser sees neither height nor parts of the force.
+  // Pressed into a tile: the hand touches it, and the browser sees neither height nor parts of the force.
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};
   EXPECT_TRUE(rig.pump([&] { return rig.hub.state().is_object() && rig.hub.state()["touching"].get<bool>(); }));
@@ -76,7 +76,7 @@ TEST_F(StudyPageTest, TellsAnObserverNothingOfWhatWasTouched) {
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};
   EXPECT_TRUE(rig.pump([&] { return rig.hub.state().is_object() && rig.hub.state()["touching"].get<bool>(); }));
-  // The figures of a run have the heights under the tip and the largest force of the texture.
+  // The values of a run have the heights under the tip and the largest force of the texture.
   EXPECT_EQ(rig.ask("study.touch", {{"on", false}}).error, "");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_TRUE(rig.ask("feel.status", Json::object(), kObserver).result["last_run"].is_null());
@@ -160,7 +160,7 @@ TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was touched"));
   rig.beating = true;
   EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
-  // It lapses: the clock of the response stands.
+  // It lapses: the clock of the response is.
   rig.beating = false;
   EXPECT_TRUE(rig.pump([&] { return !rig.session()["ready"].get<bool>(); }));
   EXPECT_TRUE(rig.session()["touching"].get<bool>());

@@ -123,7 +123,7 @@ TEST_F(StudyPageTest, NamesResultsAfterTheRun) {
   EXPECT_EQ(written("study_p01_2.study.csv"), "study_p01_2.results.json");
   EXPECT_EQ(results("study_p01.results.json")["run"], 1);
   EXPECT_EQ(results("study_p01_2.results.json")["run"], 2);
-  // Others of the same run stand beside the first, which stay.
+  // Other results of the same run are written next to the first, which stay.
   EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");
   EXPECT_EQ(rig.ask("study.resume").error, "");
   rig.touch();
@@ -134,7 +134,7 @@ TEST_F(StudyPageTest, NamesResultsAfterTheRun) {
   EXPECT_EQ(results("study_p01.results.json")["answers"], 0);
   EXPECT_EQ(results("study_p01.results_2.json")["answers"], 1);
   EXPECT_EQ(results("study_p01.results_2.json")["run"], 1);
-  // Beside the log.
+  // Next to the log.
   std::filesystem::rename(folder / "study_p01.study.csv", folder / "kept" / "study_p01.study.csv");
   EXPECT_EQ(written("kept/study_p01.study.csv"), "kept/study_p01.results.json");
 }
@@ -142,7 +142,7 @@ TEST_F(StudyPageTest, NamesResultsAfterTheRun) {
 TEST_F(StudyPageTest, LeavesNoLogOfASessionThatCouldNotBegin) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);
-  // A folder that is not empty lies where the log in hand would be named.
+  // A folder that is not empty is where the log in hand would be named.
   std::filesystem::create_directories(folder / ".asperity-study.json" / "inner");
   EXPECT_NE(rig.ask("study.begin").error, "");
   EXPECT_FALSE(std::filesystem::exists(folder / "study_p01.study.csv"));

@@ -66,7 +66,7 @@ class StudyRig {
     document.edit("/study/study/break_every", 0, "no breaks");
     document.edit("/study/participant", "p01", "participant");
   }
-  // Starts the touch, and waits until the trial can be felt.
+  // Starts the touch, and waits until the trial can be rendered.
   void touch() {
     beating = true;
     EXPECT_TRUE(pump([&] { return lease.owner(host_now_ns()) == kOwner; }));

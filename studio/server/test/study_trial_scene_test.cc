@@ -54,7 +54,7 @@ TEST(TrialScene, LaysTheTexturesSideBySideUnderTheirLetters) {
   EXPECT_EQ(scene.objects.front().textures[0].texture.name, "A");
   EXPECT_TRUE(std::holds_alternative<HeightMap>(scene.objects.front().textures[0].texture.model));
   EXPECT_TRUE(std::holds_alternative<Fourier1d>(scene.objects.front().textures[1].texture.model));
-  // Texture 1, A, lies at the smaller x.
+  // Texture 1, A, is at the smaller x.
   double left_m = 0.0, right_m = 0.0;
   const MeshFile& mesh = scene.objects.front().mesh;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {

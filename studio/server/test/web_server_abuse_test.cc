@@ -257,7 +257,7 @@ TEST_F(WebServerAbuse, ReadsNoMoreWhileMebibytesOfCallsWait) {
   client.send(RawClient::frame(1, R"({"id":6,"call":"echo","args":{}})"));
   while (unanswered_ < 5) ASSERT_TRUE(answers(good));
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(answers(good));
-  // An answer to what is no call of its own makes no room.
+  // An answer without a call makes no room.
   server_->answer(id, 77, "none");
   server_->answer(id, 3, "third");
   const auto next_text = [&client] {

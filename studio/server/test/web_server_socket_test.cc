@@ -145,7 +145,7 @@ TEST_F(WebServerSocket, ServesTheAppAndNothingElse) {
                              "/assets/", "/assets//", "/assets/%00", "/index.html/", "http://127.0.0.1/x", "*"}) {
     EXPECT_EQ(get(target).status, 404) << target;
   }
-  // A NUL is no part of a request's line.
+  // A NUL is not a part of a request's line.
   EXPECT_EQ(get(std::string("/a\0b", 4)).status, 400);
   EXPECT_EQ(get("/session").status, 405);
   EXPECT_EQ(get("/ws").status, 426);

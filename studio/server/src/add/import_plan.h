@@ -23,12 +23,12 @@ ImportChoice import_choice(const Project& project, const Json& args);
 //   {"files":[{"role","file","preset","rows","rate_hz",
 //              "columns":[{"number","label","unit"}],"cells":[[…],…],
 //              "map":[{"meaning","number","unit","negative","why"}]}],
-//    "checks":TEXT,"doubts":[TEXT],"fault":TEXT}
-// "cells" are those of the first rows, as they are in the file. "fault" is why there would be no recording, "" if there
-// is no reason; the columns and the cells are there all the same. Throws Error if a file cannot be read as a table.
+//    "checks":TEXT,"uncertainty":[TEXT],"fault":TEXT}
+// "cells" are those of the first rows, as they are in the file. "fault" is why no recording can be made, "" if there
+// is none; the columns and the cells are there all the same. Throws Error if a file cannot be read as a table.
 Json import_plan(const ImportChoice& choice);
 
-// The recording of them. Throws Error as read_imported_motion does, and Advice where a check found a doubt.
+// The recording of them. Throws Error as read_imported_motion does, and Advice where a check failed.
 Recording import_recording(const ImportChoice& choice);
 
 }  // namespace asperity::studio

@@ -12,7 +12,7 @@ namespace asperity::studio {
 //   {"kind":"profile"|"map","points":…,"missing":…,"size":TEXT,"picture":base64 of a PNG or "","note":TEXT,
 //    "parameters":[{"key","value","unit"}]}
 // Parameters are those of `asperity roughness` with its defaults, a value as text, "" where it is not defined. `note`
-// is the reason if there is no picture or a parameter is missing. `spacing_m` is for files without positions; 0: not
+// is the reason if the picture or a parameter is missing. `spacing_m` is for files without positions; 0: not
 // stated. Throws Error naming `name` for a file that cannot be read as heights.
 Json look_at_surface(const std::filesystem::path& file, double spacing_m);
 

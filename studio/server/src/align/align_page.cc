@@ -234,7 +234,7 @@ void AlignPage::register_from(const std::optional<Pose>& guess, const std::map<s
         if (number == runs_) running_ = false;
         send_iterations();
         if (!error && !is_same_scene(scene->of, choice())) {
-          sent_ran_ = Json();  // wanted again with those files
+          sent_ran_ = Json();  // needed again with those files
           error = std::make_exception_ptr(
               Advice("the scans or the mesh were changed while they were registered", "Register again."));
         }
@@ -293,7 +293,7 @@ void AlignPage::accept(const Request& request) {
   }
   taken.T_mesh_world = taken.registered->T_mesh_world;
   Json section = json_of_choice(taken);
-  if (!ran().is_null()) section["ran"] = ran();  // as it was told, to the last digit
+  if (!ran().is_null()) section["ran"] = ran();  // as it was given, to the last digit
   shared_.document.edit("/align", section, solution == "best" ? "accept the registered pose" : "accept the runner-up");
   request.done();
 }

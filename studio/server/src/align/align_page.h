@@ -18,7 +18,7 @@
 namespace asperity::studio {
 
 // The page Align: a scan path is laid on a mesh, by hand, by picked points or by registration, and written as a scene
-// (seed §5.4, Fig. 23; docs/studio-align.md).
+// (thesis §5.4, Fig. 23; docs/studio-align.md).
 class AlignPage : public Page {
  public:
   explicit AlignPage(Shared& shared) : shared_(shared), areas_(shared) {}

@@ -13,7 +13,7 @@
 
 namespace asperity::studio {
 
-// Where a scan lies by a registration: scans of one placement share their pose.
+// Where a scan is placed by a registration: scans of one placement share their pose.
 struct AlignedScan {
   std::string name;
   std::size_t placement = 1;  // from 1
@@ -40,7 +40,7 @@ RegisterConfig run_config(const AlignChoice& choice, bool near);
 AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>& scene, const AlignChoice& choice,
                    const std::optional<Pose>& guess, const RegistrationObserver& observer);
 
-// What is to be said of a pose that was placed by hand, beside all that a run has found or, without one, that is found
+// The verdict on a pose that was set by hand, compared with the result of a run or, without one, with what is found
 // now. {"T_mesh_world","rms_m","trustworthy","verdict","verdicts"}.
 Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pose& pose,
                    const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer);

@@ -56,7 +56,7 @@ void show_stored(const EarlierScene& earlier, AlignScene& scene) {
   }
 }
 
-// Where a scan would lie on the texture of another one, which is not replaced by it.
+// Where a scan would overlap the texture of another one that it does not replace.
 void mark_occupied(const std::vector<Scan>& scans, AlignScene& scene) {
   std::set<std::int32_t> replaced;
   for (const Json& stored : scene.stored) {

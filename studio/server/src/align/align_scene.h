@@ -40,10 +40,10 @@ struct AlignScene {
   std::vector<std::uint8_t> occupied{};  // of each triangle: 1 where a stored scan, which stays, has its texture
 };
 
-// Whether a scene made from `made` serves `wanted` too.
+// Whether a scene made from `made` serves `needed` too.
 bool is_same_scene(const AlignChoice& made, const AlignChoice& wanted);
 
-// Reads what the choice names. Throws Advice where there is no mesh or path yet, Error for what cannot be used,
+// Reads what the choice names. Throws Advice without a mesh or path, Error for what cannot be used,
 // Cancelled.
 std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, const Project& project,
                                                    const Observer& observer);

@@ -13,7 +13,7 @@ namespace asperity::studio {
 // The iterations of one registration, from the thread that registers to the browsers. Thread-safe.
 class IterationLog {
  public:
-  // Beyond these only the count goes on; a registration has a few thousand.
+  // Beyond these only the count continues; a registration has a few thousand.
   static constexpr std::size_t kMost = 50'000;
 
   explicit IterationLog(std::uint64_t run) : run_(run) {}

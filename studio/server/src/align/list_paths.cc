@@ -18,7 +18,7 @@ constexpr int kDeepest = 2;  // below the folder's own level
 constexpr int kMostFiles = 1000;
 constexpr std::size_t kLongestHead = 4096;
 
-// Whether the first line that is no comment names a path's columns.
+// Whether the first line that is not a comment names a path's columns.
 bool has_path_columns(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string head(kLongestHead, '\0');

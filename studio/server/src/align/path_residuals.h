@@ -13,7 +13,7 @@ namespace asperity::studio {
 struct PathResiduals {
   std::vector<float> distance_m;  // to the closest point of the mesh; negative on the inner side of its normal there
   std::vector<Eigen::Vector3d> normal_mesh;  // there, unit
-  double mean_m = 0.0;                       // of the magnitudes (the seed's measure, §5.4)
+  double mean_m = 0.0;                       // of the magnitudes (the thesis's measure, §5.4)
   double rms_m = 0.0;
   double most_m = 0.0;
 };

@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kOnTexture = 2;  // a triangle that has the textur
 double overlap_reach_m(const AlignScene& scene);
 
 // Of each point that is drawn: kNearScan if a point of another scan, thinned or not, is within that distance; 0
-// otherwise. `T_mesh_world` has a pose for each scan, or is empty: all lie by one pose, whichever it is.
+// otherwise. `T_mesh_world` has a pose for each scan, or is empty: all have one pose.
 std::vector<std::uint8_t> scan_overlaps(const AlignScene& scene, const std::vector<Pose>& T_mesh_world);
 
 }  // namespace asperity::studio

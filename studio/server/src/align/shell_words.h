@@ -4,7 +4,7 @@
 
 namespace asperity::studio {
 
-// A word as a shell reads it back, whatever is in it.
+// A word quoted for a shell.
 inline std::string shell_quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

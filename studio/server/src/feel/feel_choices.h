@@ -13,7 +13,7 @@ namespace asperity::studio {
 struct FeelChoices {
   std::string scene;                     // scene.json, its folder, or a mesh; empty: none, or the height maps
   std::string mesh_unit;                 // of a mesh given alone: "mm", "0.06m"; empty: m
-  std::vector<std::string> height_maps;  // images side by side instead of a scene (seed Fig. 38)
+  std::vector<std::string> height_maps;  // images side by side instead of a scene (thesis Fig. 38)
   double tile_mm = 10.0;
   double range_mm = 2.5;
   std::string device = "mouse";

@@ -28,7 +28,7 @@ const std::vector<DeviceKind>& kinds() {
   return all;
 }
 
-// What is needed that can be told without a try.
+// Missing settings that are known without opening the device.
 std::string missing(const DeviceKind& kind, const FeelConfig& start) {
   if (kind.name == kMouse) return "";
   const std::optional<NeededSetting> needed = start.feel.devices.missing(kind.name);
@@ -119,7 +119,7 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   out.drive = drive_of(setup, out.kind, scene, observer);
   const bool mouse = out.kind.name == kMouse;
   observer.update("the device", 0.3);
-  std::string device_told;  // of a device that goes on
+  std::string device_told;  // of a device that continues
   if (!mouse) {
     out.device = open_device(setup.device, out.drive, out.config.feel);
     out.info = out.device->info();

@@ -20,7 +20,8 @@ bool is_feel_device(std::string_view name);
 // Throws Error for a name that is none.
 const DeviceKind& feel_device_kind(std::string_view name);
 
-// All devices: [{"name","title","available","words"}]. Nothing is opened for it: what only a try can tell is said so.
+// All devices: [{"name","title","available","words"}]. Nothing is opened for it: what only opening it can show is
+// stated as such.
 Json feel_devices_json(const FeelConfig& start);
 
 // A device that is open, and what it is to feel.

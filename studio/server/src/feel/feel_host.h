@@ -11,9 +11,9 @@
 
 namespace asperity::studio {
 
-// Something that is felt in the place of what was chosen on the Feel page, blind: a trial of a study.
+// A scene that is rendered instead of the one of the Feel page, blind: a trial of a study.
 struct FeelVisit {
-  std::uint64_t key = 0;                  // of what is presented; not 0
+  std::uint64_t key = 0;                  // of the presented scene; not 0
   FeelSetup setup;                        // device and settings
   std::function<Scene(FeelSetup&)> make;  // called on a job's thread
   std::shared_ptr<TileTouches> touches;   // hears of all ticks while it is presented; may be null
@@ -25,14 +25,14 @@ class FeelHost {
  public:
   virtual ~FeelHost() = default;
 
-  // Starts the device of `visit`, and answers `request` when it is felt, or with the refusal. Throws Advice while
-  // something is felt.
+  // Starts the device of `visit`, and answers `request` when it is rendered, or with the refusal. Throws Advice while
+  // something is rendered.
   virtual void visit(const Request& request, FeelVisit visit) = 0;
   // Lays something else under the hand. The force is at zero while that is done, and for kHold_ns after.
   virtual void change_visit(FeelVisit visit) = 0;
   // Ends the visit, if there is one.
   virtual void leave() = 0;
-  // Whether a visit goes on and is not leaving, and the key of what can be felt at this moment; 0: nothing, or no force
+  // Whether a visit continues and is not leaving, and the key of the scene that is rendered now; 0: none, or no force
   // is permitted.
   virtual bool is_visited() const = 0;
   // Whether one is at its end, the force going to zero; another can begin after.

@@ -71,7 +71,7 @@ void FeelPage::edited(const Edit& edit) {
   send_status();
 }
 
-// While a scene is felt, what is under the hand is changed by the one whose hand it is; others may make it safer.
+// While a scene is rendered, what is under the hand is changed by the one whose hand it is; others may make it safer.
 void FeelPage::check_edit(ClientId client, const Edit& edit) const {
   if (state_ == State::kIdle || !edit.path.starts_with("/feel") || (belongs_to(client) && !visited_)) return;
   const bool is_number = edit.path == "/feel/max_force_N" && edit.after.is_number();
@@ -124,7 +124,7 @@ void FeelPage::loaded(std::shared_ptr<const LoadedScene> world) {
   send_status();
 }
 
-// The model for the running device is built beside the loop and taken between two of its ticks.
+// The model for the running device is built next to the loop and taken between two of its ticks.
 void FeelPage::swap_model() {
   auto result = std::make_shared<PreparedModel>();
   shared_.jobs.start(
@@ -186,7 +186,7 @@ Json FeelPage::status() const {
   return out;
 }
 
-// Says how things stand if that is another than before.
+// Sends the status if it has changed.
 void FeelPage::send_status() {
   Json now = status();
   if (now == sent_status_) return;

@@ -89,10 +89,10 @@ class FeelPage : public Page, public FeelHost {
   std::shared_ptr<FinishedLogs> finished_logs_;
   Json last_run_;
 
-  bool visited_ = false;             // what is felt, or being opened, is a visitor's
-  std::uint64_t visit_key_ = 0;      // of what is under the hand; 0: being changed
+  bool visited_ = false;             // the scene that is rendered, or being opened, is a visitor's
+  std::uint64_t visit_key_ = 0;      // of the scene under the hand; 0: being changed
   bool permitted_ = false;           // the force, at the last look
-  std::uint64_t visit_changes_ = 0;  // so far: of what is laid under the hand the newest counts
+  std::uint64_t visit_changes_ = 0;  // so far: the newest one counts
   std::int64_t held_until_ns_ = 0;   // no force before, between two things of a visitor
   std::function<void()> visit_changed_;
   Json sent_status_;

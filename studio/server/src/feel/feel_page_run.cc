@@ -41,7 +41,7 @@ std::string lost_log(const std::string& name) { return "the log " + printable(na
 
 }  // namespace
 
-// What the job that opens a device hands over.
+// The result of the job that opens a device.
 struct FeelPage::Opening {
   FeelSetup setup;
   std::uint64_t revision = 0;                // of the choices
@@ -167,7 +167,7 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   send_status();
 }
 
-// Another window goes on with the run: by its own word, and with the lease.
+// Another window takes the run over: by its own request, and with the lease.
 void FeelPage::take(const Request& request) {
   if (state_ == State::kIdle) throw Advice("no scene is running", "Start.");
   if (shared_.lease.owner(host_now_ns()) != request.client()) {

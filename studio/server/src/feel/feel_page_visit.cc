@@ -3,7 +3,7 @@
 #include "asperity/base/host_clock.h"
 #include "feel/feel_page.h"
 
-// What is felt for another page.
+// What is rendered for another page.
 
 namespace asperity::studio {
 
@@ -18,7 +18,7 @@ void FeelPage::change_visit(FeelVisit visit) {
       [result, visit, info = running_.info, kind = running_.kind, servo = running_.config.feel.servo](const Observer&) {
         FeelSetup setup = visit.setup;
         const Scene scene = visit.make(setup);
-        // Where the device stands, how fast it is served and how safely is settled for the run.
+        // Position, rate and safety of the device are fixed for the run.
         setup.config.feel.servo = servo;
         *result = prepare_render_model(scene, info, kind.driven() || kind.name == "mouse", setup.config.feel);
       },

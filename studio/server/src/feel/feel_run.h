@@ -40,8 +40,8 @@ struct FeelOutcome {
   std::exception_ptr failure;  // what the loop or the log threw, with zero force
 };
 
-// A scene being felt: run_servo on threads of its own, which no browser and no page can delay. Functions are for the
-// studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
+// A scene being rendered: run_servo on threads of its own, which no browser and no page can delay. Functions are for
+// the studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
 class FeelRun {
  public:
   // Begins at once. On the run's thread are called: `log_ended` for each log, and last `ended`, when the force is zero
@@ -59,7 +59,7 @@ class FeelRun {
   void swap(std::unique_ptr<const RenderModel> model) { scene_.publish(std::move(model)); }
   // What hears of the ticks from now on; may be null.
   void watch(std::shared_ptr<TileTouches> touches);
-  // Where the pointer wants the device point; nothing for a device that a hand or a path moves.
+  // The target of the device point by the pointer; nothing for a device that a hand or a path moves.
   void point(const Eigen::Vector3d& p_world_m) noexcept;
 
   RunLog& log() { return log_; }

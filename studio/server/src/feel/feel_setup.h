@@ -36,7 +36,7 @@ struct FeelSetup {
 // does not take, an unknown device.
 FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project);
 
-// Reads what is to be felt, with other textures in the place of its own where the user chose so. Not for the studio's
+// Reads the scene, with other textures instead of its own where the user chose so. Not for the studio's
 // thread. Throws Error naming the file.
 Scene read_chosen_scene(FeelSetup& setup, const Observer& observer);
 

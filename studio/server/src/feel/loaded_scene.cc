@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Size and time of a file and of those beside it that belong to it: of wood.texture.json also wood.heights.png.
+// Size and time of a file and of those next to it that belong to it: of wood.texture.json also wood.heights.png.
 void stamp_family(const fs::path& file, std::string& out) {
   const std::string name = file.filename().string();
   const std::string stem = name.substr(0, name.find('.'));
@@ -88,7 +88,7 @@ std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices
   out->block.head()["height_maps"] = !choices.height_maps.empty();
   BlockWriter copy = out->block;
   out->content = std::hash<std::string>()(copy.take());
-  // What only feels different need not be drawn anew.
+  // A change of the force alone needs no new drawing.
   out->number = number;
   out->drawn = before && before->content == out->content ? before->drawn : number;
   return out;
@@ -97,7 +97,7 @@ std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices
 PreparedModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
                                     const FeelConfig& running) {
   FeelSettings settings = world.setup.config.feel;
-  // Where the device stands, how fast it is served and how safely is settled for the run.
+  // Position, rate and safety of the device are fixed for the run.
   settings.servo = running.feel.servo;
   return prepare_render_model(*world.scene, device, as_it_is, settings);
 }

@@ -11,7 +11,7 @@
 
 namespace asperity::studio {
 
-// What is felt and shown, as the choices say. Immutable, and kept until a newer one is whole.
+// What is rendered and shown, as the choices say. Immutable, and kept until a newer one is whole.
 struct LoadedScene {
   FeelSetup setup;
   std::string source;                    // what of the choices the scene was read from

@@ -122,7 +122,7 @@ void TickStream::send_state() {
   }
   limited_by_ = 0;
   head["touching"] = output.contact.found();
-  // Of what is felt blind: where the point is and what it feels altogether, nothing of the surface.
+  // Of a blind scene: the point and the total force, nothing of the surface.
   const Eigen::Vector3d hidden = Eigen::Vector3d::Zero();
   head["sticking"] = !blind_ && output.sticking;
   head["starts_inside"] = !blind_ && output.starts_inside;

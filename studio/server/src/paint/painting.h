@@ -22,13 +22,13 @@ struct Stroke {
   int index = 1;                         // under which the scene knows it
 };
 
-// What is to be painted on what, as the document's section "paint" says.
+// The textures and their target, as the document's section "paint" states.
 struct Painting {
   std::string object;   // mesh or scene in the project; empty: nothing
   double unit_m = 1.0;  // of a mesh alone
   HapticCoordinatesConfig coordinates;
   std::vector<Stroke> strokes;       // in their order
-  std::map<int, std::string> swaps;  // index: the texture, in the project, that takes the place of the scene's
+  std::map<int, std::string> swaps;  // index: the texture, in the project, that replaces the scene's
 };
 
 inline constexpr std::size_t kMostStrokes = 200;
@@ -49,14 +49,14 @@ struct PaintedScene {
   std::vector<PaintedStroke> strokes;
 };
 
-// Strokes and swaps laid on a scene one after another. One that cannot be painted is left out and says why. Throws
+// Strokes and swaps laid on a scene one after another. One that cannot be painted is left out with its reason. Throws
 // Error naming the file for textures that cannot be read, and Cancelled.
 PaintedScene paint_all(Scene scene, const Painting& painting, const Project& project, const Observer& observer);
 
 // For the browser: the mesh in metres (mesh_block.h) with, for each triangle, "texture" (index, -1: none),
 // "xy_mm" [triangles, 3, 2] and "stretch" (the singular value farthest from 1, as a factor of at least 1, negative if
-// it squeezes; nan where there is no texture) and "folded" (0, 1); for each stroke its path "path_K" [points, 3]; in
-// the head, the textures and the strokes' figures.
+// it squeezes; nan without a texture) and "folded" (0, 1); for each stroke its path "path_K" [points, 3]; in
+// the head, the textures and the strokes' values.
 BlockWriter painted_block(const PaintedScene& painted);
 
 }  // namespace asperity::studio

@@ -11,7 +11,7 @@
 
 namespace asperity::studio {
 
-// A stroke with its place in the file system.
+// A stroke with its position in the file system.
 struct NamedStroke {
   std::string name;  // as the merge calls it
   std::filesystem::path folder;

@@ -87,7 +87,7 @@ class ProcessPage : public Page {
                                                      list_fields("align", defaults.merge.align))}});
   }
 
-  // The newest setting of a scan takes the place of the one that is worked on.
+  // The newest setting of a scan replaces the one that is computed.
   void run(const Request& request) {
     const ScanName scan = scan_name(request.args());
     const fs::path recording = shared_.project.existing(scan.recording);

@@ -11,7 +11,7 @@
 
 namespace asperity::studio {
 
-// A scan that has been read, with what has been worked out of it.
+// A scan that has been read, with its results.
 struct OpenScan {
   ProcessSession session;
   std::vector<std::string> segments;  // that are processed each for itself, as `asperity process` calls their folders
@@ -24,8 +24,8 @@ class ScanSessions {
   static constexpr std::size_t kMost = 16;
 
   // The scan of a recording's folder, read again if its files have changed since. `segment` "" is the whole recording,
-  // or the first of its segments where they stand apart. Valid until the next call. Throws Error if it cannot be read
-  // or there is no such segment.
+  // or the first of its segments where they are apart. Valid until the next call. Throws Error if it cannot be read
+  // or has no such segment.
   OpenScan& open(const std::filesystem::path& recording, const std::string& segment, const Observer& observer = {});
 
  private:

@@ -9,7 +9,7 @@
 namespace asperity::studio {
 
 // The virtual bench as hardware (docs/live-bench.md): simulates the scan, and plays it over a pseudo-terminal and a
-// FIFO each time that it is told to. Before the first time it plays its opening rest, in which the probe describes
+// FIFO at each start. Before the first time it plays its first static interval, in which the probe describes
 // itself. Takes some seconds. Throws Error for what cannot be simulated, and Cancelled.
 std::unique_ptr<ScanSource> make_bench_source(const BenchConfig& config, const Observer& observer);
 

@@ -9,7 +9,7 @@
 
 namespace asperity::studio {
 
-// What a source plays now, told to the sensors' threads that read it: each playing is an episode with a number of its
+// What a source plays now, stated to the sensors' threads that read it: each playing is an episode with a number of its
 // own. Thread-safe.
 template <class What>
 class Episodes {

@@ -19,13 +19,13 @@ class LiveScanBuffer {
 
   // Gives what there was.
   LiveScanBuffer restart();
-  // Begins anew with what there was once.
+  // Starts again with earlier data.
   void begin_with(LiveScanBuffer kept);
   // While nothing is stored only the path grows; of that the newest tips are kept.
   void add(const LiveEstimate& estimate, bool storing);
 
   // What add() has brought since the last call, with "sequence", "generation" and "first"; empty: nothing. That the
-  // profile has begun anew is told without a point of it, too: what was before is of nothing that there is.
+  // profile has started again is sent without a point, too: earlier points are out of date.
   bool grown() const { return begun_anew_ || sent_points_ < s_m_.size(); }
   bool moved() const { return sent_tips_ < path_.size(); }
   BlockWriter take_growth();

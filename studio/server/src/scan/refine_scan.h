@@ -19,7 +19,7 @@ class ScanRefiner {
 
   // The refined profile (s_m, height_m, sigma_m, texture_m, force_N, speed_mps), and in the head what is known of it:
   // "recording", "segment", "took_s", "trustworthy", "verdict", "verdicts", "roughness", and as "difference" how the
-  // causal one lies against it. Throws Error where the recording or a setting allows no profile, and Cancelled.
+  // causal one differs from it. Throws Error where the recording or a setting allows no profile, and Cancelled.
   BlockWriter refine(const ProcessConfig& config, const Observer& observer);
 
   // It has another name in the recording since it was brought back.

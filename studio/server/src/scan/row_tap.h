@@ -27,7 +27,7 @@ struct SeenImage {
   std::optional<TrackedPose> pose;
 };
 
-// A copy of what the sensors give, for whoever shows it. The sensors' threads put rows in and never wait for longer
+// A copy of what the sensors give, for the display. The sensors' threads put rows in and never wait for longer
 // than a copy takes; what nobody fetches in time is dropped and counted, the recorder has it all the same. Thread-safe.
 class RowTap {
  public:
@@ -39,8 +39,8 @@ class RowTap {
 
   void add(std::span<const ProbeSample> rows);
   void add(const TrackedPose& pose);
-  // Keeps a small copy if images are wanted and the last one is old enough. It goes with the pose of the same time; a
-  // newer one takes its place until that has come. In the thread that adds the poses.
+  // Keeps a small copy if images are needed and the last one is old enough. It goes with the pose of the same time; a
+  // newer one replaces it until that has come. In the thread that adds the poses.
   void add(const CameraFrame& frame);
   void want_images(bool wanted) { images_wanted_ = wanted; }
 

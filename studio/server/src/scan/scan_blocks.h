@@ -13,17 +13,17 @@
 
 namespace asperity::studio {
 
-// Rows of the probe with their units: t_s since `origin_ns`, force_N (nan where there is no new reading), accel_mps2
+// Rows of the probe with their units: t_s since `origin_ns`, force_N (nan without a new reading), accel_mps2
 // (three a row, specific force in the marker's frame). Without a calibration counts, and "calibrated" is false. The
 // head's "sequence" is the first row's number, "newest_ns" the newest row's time.
 BlockWriter probe_block(std::span<const ProbeSample> rows, std::uint64_t first_row, std::uint64_t dropped,
                         std::int64_t origin_ns, const std::optional<Calibration>& calibration);
 
-// A camera's image with what was found in it: "tags" [{"id","corners_px":[x0,y0,…]}] in pixels of this image, and
+// A camera's image with the tags found in it: "tags" [{"id","corners_px":[x0,y0,…]}] in pixels of this image, and
 // "reprojection_px" of the full one.
 BlockWriter image_block(const SeenImage& seen);
 
-// How a recording under way stands (docs/studio-scan.md).
+// The state of a running recording (docs/studio-scan.md).
 Json recorder_json(const RecorderSnapshot& now);
 // The camera's size and focal lengths, for its frustum.
 Json camera_json(const CameraCalibration& camera);

@@ -41,7 +41,7 @@ std::map<std::string, std::string> settings_of(const Json& value) {
   if (!value.is_object() || value.size() > kMostSettings) refuse("settings", "an object of settings is needed");
   std::map<std::string, std::string> out;
   for (const auto& [path, setting] : value.items()) out[path] = text_of("settings." + path, setting);
-  check_scan_config(make_scan_config(out));  // throws for what is not allowed
+  check_scan_config(make_scan_config(out));  // throws if it is not allowed
   return out;
 }
 

@@ -30,8 +30,8 @@ Json first_scan_section();
 // Takes the section apart. Throws Error in words naming the key: unknown, of another type, too many or too long.
 ScanChoices read_scan_choices(const Json& section);
 
-// The hardware's addresses and files with the project's files as paths: what is no device must lie in the project's
-// folder, and a device in /dev. Throws Error naming the choice.
+// The hardware's addresses and files with the project's files as paths: anything that is not a device must be in the
+// project's folder, and a device in /dev. Throws Error naming the choice.
 RecordInput resolve_hardware(const RecordInput& typed, const Project& project);
 
 }  // namespace asperity::studio

@@ -17,7 +17,7 @@ bool is_shared(std::string_view path) {
   return path.starts_with("live.fused.") || path.starts_with("live.base.") || path.starts_with("live.profile.");
 }
 
-// The page's own: its mode is the switch "Auto", and it begins when it is told to.
+// The page's own: its mode is the switch "Auto", and it begins on request.
 bool is_steered(std::string_view path) { return path == "recorder.mode" || path == "recorder.start_at_once"; }
 
 }  // namespace

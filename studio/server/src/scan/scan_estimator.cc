@@ -19,7 +19,7 @@ constexpr double kCertain_deg = 10.0;  // of the base's normal, for a hint about
 constexpr double kShareOfTip = 0.01;   // a tip comes every 4 ms
 constexpr double kEnough = 0.5;
 
-// What the estimators know of the probe and its place.
+// The data of the probe and its position for the estimators.
 bool measures_alike(const RecordingInfo& a, const RecordingInfo& b) {
   return a.gravity_world_mps2 == b.gravity_world_mps2 && a.probe_rate_Hz == b.probe_rate_Hz && a.adc_min == b.adc_min &&
          a.adc_max == b.adc_max;

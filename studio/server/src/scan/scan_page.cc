@@ -216,7 +216,7 @@ class ScanPage : public Page {
     auto kept = std::make_shared<bool>(false);
     finish(ending, kept, [this, request, ending, kept](std::exception_ptr error) {
       busy_ = false;
-      if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
+      if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording continues
       if (error) return refuse(request, error);
       discarded_.reset();
       request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
@@ -324,7 +324,7 @@ class ScanPage : public Page {
           try {
             std::rethrow_exception(error);
           } catch (const Cancelled&) {
-            // A newer setting has taken its place.
+            // A newer setting has replaced it.
           } catch (const std::exception& fault) {
             BlockWriter failed("scan.refined");
             failed.head()["failure"] = fault.what();

@@ -196,7 +196,7 @@ void ScanSession::run_round(bool last) {
   if (finished_ && (last || host_now_ns() >= finished_->hand_over_at_ns)) hand_over(now);
 }
 
-// A fault that comes again each round is told once.
+// A fault that repeats each round is sent once.
 void ScanSession::send_message(const std::string& message, const std::string& hint) {
   if (message == sent_message_) return;
   sent_message_ = message;
@@ -217,7 +217,7 @@ LiveHeights ScanSession::live_heights() const {
   return {{book_.s_m().begin(), book_.s_m().end()}, {book_.height_m().begin(), book_.height_m().end()}};
 }
 
-// With new settings the scan that is shown grows anew at once from the rows that were kept.
+// With new settings the scan that is shown grows again at once from the rows that were kept.
 void ScanSession::retune(const RecorderSnapshot& now) {
   std::optional<ScanConfig> wanted;
   {

@@ -45,12 +45,12 @@ struct FinishedScan {
   LiveHeights live;
 };
 
-// What a session tells, in its own thread.
+// The events of a session, in its own thread.
 struct ScanEvents {
   std::function<void(FinishedScan)> finished;
   std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
   std::function<void()> discarded;           // it may be brought back: finished() again, with the same times
-  std::function<void()> forgotten;           // another has taken its place
+  std::function<void()> forgotten;           // another has replaced it
   std::function<void(std::string)> lost;     // why the recording could not be finished, where nobody called finish()
 };
 
@@ -75,7 +75,7 @@ class ScanSession {
   // Brings back what was discarded last. Throws Advice if there is nothing.
   void restore();
   void set_automatic(bool automatic);
-  // New settings of the live estimate and of the hints; the scan so far is worked out anew with them.
+  // New settings of the live estimate and of the hints; the scan so far is computed again with them.
   void tune(const ScanConfig& config);
 
   const std::string& name() const { return setup_.name; }
@@ -96,7 +96,7 @@ class ScanSession {
     std::optional<Segment> last_discarded;
   };
 
-  // Of the probe and its place, beside what the source says.
+  // Data of the probe and its position, in addition to those of the source.
   struct Known {
     bool description = false, gravity = false;
     bool operator==(const Known&) const = default;
@@ -149,10 +149,10 @@ class ScanSession {
   RowTap::TakenRows taken_;
   std::optional<ScanEstimator> estimator_;
   ScanConfig config_;
-  Known used_;  // what the estimator was told
+  Known used_;  // what the estimator has
   Watched before_;
   bool was_playing_ = false;
-  std::optional<Segment> shown_;  // the scan that the book tells of
+  std::optional<Segment> shown_;  // the scan that the book is about
   std::optional<FinishedSegment> finished_;
   std::optional<DiscardedSegment> discarded_;
   std::int64_t newest_row_ns_ = 0;

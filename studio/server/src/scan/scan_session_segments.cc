@@ -20,7 +20,7 @@ void ScanSession::watch(const RecorderSnapshot& now) {
   const bool restored = now.restored > before.restored;
   const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
   if (discarded) {
-    estimator_->kept().hold(true);  // it may be wanted again
+    estimator_->kept().hold(true);  // it may be needed again
     // After a restored one is shown, the recording's last may be another.
     const bool is_another = shown_ && now.last_discarded && shown_->start_ns != now.last_discarded->start_ns;
     if (!is_another) {
@@ -45,12 +45,13 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     if (now.automatic) recorder_->set_mode(StoreMode::kAuto);
   }
   was_playing_ = setup_.source->playing();
-  // While rows are stored gravity waits: the estimate would begin anew in the middle.
+  // While rows are stored gravity waits: the estimate would start again in the middle.
   if (now.storing && (!now.description || used_.description)) return;
   if (use_what_is_known(now) && now.storing && shown_ && estimator_->kept().covers(shown_->start_ns)) grow_again(now);
 }
 
-// True if the probe has described itself, or gravity was measured, since the estimator was told last: it begins anew.
+// True if the probe has described itself, or gravity was measured, since the estimator was last updated: it starts
+// again.
 bool ScanSession::use_what_is_known(const RecorderSnapshot& now) {
   const Known known{now.description.has_value(), now.gravity.measured};
   if (known == used_) return false;
@@ -119,7 +120,7 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
 void ScanSession::hand_over(const RecorderSnapshot& now) {
   const auto [segment, live, due_ns] = *std::exchange(finished_, std::nullopt);
   KeptRows& kept = estimator_->kept();
-  kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
+  kept.hold(true);  // until the next scan begins: it may be discarded, and be needed again
   if (!kept.covers(segment.start_ns)) {
     send_message(segment.name + " is too long to be refined here; the recording is complete",
                  "Finish the recording, and open it on the Process page.");

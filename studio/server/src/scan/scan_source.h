@@ -26,7 +26,7 @@ class ScanSource {
   // What the recorder has to know of it: a bench need not wait for its disk, a probe may be slow to speak.
   virtual void adapt(RecorderConfig&) const {}
 
-  // A source that waits until it is told, plays once, and waits again; hardware does not. Thread-safe.
+  // A source that waits for its start, plays once, and waits again; hardware does not. Thread-safe.
   virtual bool plays() const { return false; }
   virtual void play() {}
   virtual void stop_playing() {}

@@ -23,7 +23,7 @@ bool is_image(const std::string& name);
 // Not for the studio's thread. Throws Error naming the file, and for a staircase of friction on a texture without any.
 Stimuli read_stimuli(const Study& study, const Project& project);
 
-// Throws Advice naming the textures that are others than those of `logged_crc32`; one without values tells nothing.
+// Throws Advice naming the textures that differ from those of `logged_crc32`; without check sums nothing is compared.
 void check_unchanged(const Study& study, const Stimuli& stimuli, const std::vector<std::uint32_t>& logged_crc32);
 
 }  // namespace asperity::studio

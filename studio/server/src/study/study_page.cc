@@ -58,8 +58,8 @@ StudyLog read_log(const Project& project, const std::string& name) {
   return advised([&] { return parse_study_log(read_file(project.existing(name), kLargestStudyLog_bytes), name); });
 }
 
-// Writes the results of a log beside it, under its name, which tells the run: x_2.results.json of x_2.study.csv. Others
-// that are there stay, and these become x_2.results_2.json; the same ones are not written again. Gives the name.
+// Writes the results of a log next to it, under its name, which states the run: x_2.results.json of x_2.study.csv.
+// Others that are there stay, and these become x_2.results_2.json; the same ones are not written again. Gives the name.
 std::string keep_results(const Project& project, const std::string& log, const std::string& content) {
   const std::string file = project.existing(log).lexically_relative(project.folder()).generic_string();
   const std::string stem = file.substr(0, file.size() - kStudyLogEnding.size()) + ".results";
@@ -168,7 +168,7 @@ void StudyPage::complain(std::exception_ptr error) {
   send_status();
 }
 
-// Nothing of it says which texture lies where, or how the answers are.
+// It has neither the sides of the textures nor the answers.
 Json StudyPage::status() const {
   static constexpr std::array<const char*, 5> kPhases{"none", "reading", "paused", "running", "finished"};
   Json out;

@@ -15,7 +15,7 @@
 
 namespace asperity::studio {
 
-// The Study page (docs/studio-study.md): one session at a time, whose trials are felt by the loop of the Feel page.
+// The Study page (docs/studio-study.md): one session at a time, whose trials are rendered by the loop of the Feel page.
 class StudyPage : public Page {
  public:
   // `host` outlives the page's last call.

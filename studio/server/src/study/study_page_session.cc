@@ -14,7 +14,7 @@
 #include "study/study_page.h"
 #include "study/trial_scene.h"
 
-// The session: its beginning and end, its trials, what is felt in them.
+// The session: its beginning and end, its trials, what is rendered in them.
 
 namespace asperity::studio {
 
@@ -27,7 +27,7 @@ constexpr std::uint64_t kLargestRunningFile = 4096;
 
 }  // namespace
 
-// What the job that opens a log hands over.
+// The result of the job that opens a log.
 struct StudyPage::Opening {
   explicit Opening(Project in) : project(std::move(in)) {}
 
@@ -56,7 +56,7 @@ struct StudyPage::Opening {
         StudyLogFile::create(project.writable(name), format_log_head(*session, stimuli.crc32)));
   }
 
-  // Opens the log, and names it in `file` as the one that goes on; a new one is not left behind without that.
+  // Opens the log, and names it in `file` as the open one; a new one is not left behind without that.
   void open(const fs::path& file) {
     const bool is_new = name.empty();
     advised([&] { is_new ? open_new() : open_old(); });
@@ -257,7 +257,7 @@ void StudyPage::start_touch() {
   }
 }
 
-// What can be felt has changed.
+// What can be rendered has changed.
 void StudyPage::follow_touch() {
   const std::uint64_t felt = host_.visited_key();
   // Another trial has come while the device was being opened.
@@ -339,7 +339,7 @@ void StudyPage::take_back(const Request& request) {
   request.done();
 }
 
-// To the system at once: what was confirmed outlives the program. To the disk beside the page.
+// To the system at once: what was confirmed outlives the program. To the disk next to the page.
 void StudyPage::note_row(const std::string& row) {
   log_->append(row);
   shared_.jobs.start_storing(

@@ -15,7 +15,7 @@ namespace asperity::studio {
 namespace {
 
 constexpr std::array<const char*, 2> kLabels{"A", "B"};
-// Nothing of it can be felt; it stays a texture, so that its own stiffness and friction stay.
+// It has no perceptible height; it stays a texture, so that its own stiffness and friction stay.
 constexpr double kFlat = 1e-9;
 
 HeightMapViewerConfig viewer_of(const Study& study) {

@@ -19,7 +19,7 @@ class BlockWriter {
  public:
   explicit BlockWriter(std::string_view kind);
 
-  // What the head says beside kind and arrays.
+  // What the head states next to kind and arrays.
   Json& head() { return head_; }
 
   // `shape` is empty for a row of numbers, or its sizes, the last one running fastest; their product must be the number

@@ -17,7 +17,7 @@ struct MeasuredBlockConfig {
 
 // All that the Process page and report.html show of one processed recording. `name` is the recording's.
 //
-// Head, kind "measured": "result" is result.json (write_result.h); "world" as in recording.json; "figures" a list
+// Head, kind "measured": "result" is result.json (write_result.h); "world" as in recording.json; "values" a list
 // (measured_metrics.h); "dropped"
 // [{"kind","message","count"}]; "gaps" [{"from_m","to_m","why"}] and "gap_count"; "trajectory" {"samples","every",
 // "points","origin_m","duration_s"}: every `every`-th sample is there; "profile" {"samples","every",

@@ -17,8 +17,8 @@ inline constexpr std::size_t kMaxReportItems = 64;
 std::vector<std::filesystem::path> find_results(const std::filesystem::path& folder);
 
 // What the files of one result, result.json, profile.csv and trajectory.csv, give for a report; the last may be
-// missing; or the block of this very result in the report.html beside them, which holds more. `name` is what the report
-// calls it; empty: the recording's. Throws Error naming file, line and value.
+// missing; or the block of this very result in the report.html next to them, which holds more. `name` is what the
+// report calls it; empty: the recording's. Throws Error naming file, line and value.
 ReportItem read_report_item(const std::filesystem::path& folder, const std::string& name = {});
 
 // The same from the files' texts; messages call them as they are called in `folder`. No trajectory: nullopt.

@@ -44,7 +44,7 @@ struct ResultFigure {
 //   a *.texture.json               of an areal texture: the same
 //   any other file                 heights, as read_heights() reads them
 // Several results are laid over each other in one panel, from where each begins; maps stand below each other. `parts`
-// are the panels wanted, all if empty. The verdict of an invalid result is the figure's note.
+// are the panels needed, all if empty. The verdict of an invalid result is the figure's note.
 // Throws Error naming the file for one that cannot be read, or if none of `parts` can be drawn.
 ResultFigure make_result_figure(std::span<const FigureSource> sources, std::span<const FigurePart> parts,
                                 const ResultFigureConfig& config);

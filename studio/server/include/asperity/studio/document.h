@@ -45,7 +45,7 @@ class Document {
   // replace it.
   void load();
   // The same of the file's content; false if a section or the steps were not taken. Throws Error if it is not a
-  // document at all; the value is then of no use.
+  // document at all; the value is then undefined.
   bool read(std::string_view text);
 
   const Json& value() const { return value_; }
@@ -58,7 +58,7 @@ class Document {
   // False: there is nothing. Throws Error, and the step is dropped, if its page does not take what would come of it.
   bool undo();
   bool redo();
-  // What they would do, seen from now: its `after` is what will stand there; nullptr: nothing.
+  // What they would do, seen from now: its `after` is the value afterwards; nullptr: nothing.
   std::optional<Edit> next_undo() const;
   std::optional<Edit> next_redo() const;
   std::string undo_label() const;  // empty: nothing to undo

@@ -15,7 +15,7 @@ class ForceLease {
 
   // True if `client` has it then; a living owner keeps it.
   bool acquire(ClientId client, std::int64_t now_ns);
-  // Tells that the owner lives; from others it is nothing.
+  // A sign of life of the owner; ignored from others.
   void heartbeat(ClientId client, std::int64_t now_ns);
   void release(ClientId client);
 

@@ -13,7 +13,7 @@
 namespace asperity::studio {
 
 // Long work with progress and cancel, in lanes: the jobs of a lane run one after another on a thread of its own, those
-// of different lanes beside each other. The browsers see
+// of different lanes side by side. The browsers see
 //   event "job"
 //   {"id","title","stage","fraction","state":"waiting"|"running"|"done"|"failed"|"cancelled","message","hint"}
 // but for jobs without a title, and can call job.cancel {"job":id} and job.list. Its functions are for the studio's
@@ -23,7 +23,7 @@ class Jobs {
   using Work = std::function<void(const Observer&)>;     // on the jobs' thread; may throw
   using Done = std::function<void(std::exception_ptr)>;  // on the studio's thread, once unless the studio ends; null:
                                                          // all went well
-  using Post = std::function<void(std::function<void()>)>;  // hands a function to the studio's thread
+  using Post = std::function<void(std::function<void()>)>;  // passes a function to the studio's thread
 
   Jobs(Hub& hub, Post post);
   // As close().
@@ -31,7 +31,7 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  // A job whose `slot` is not empty takes the place of those of the same slot: a waiting one is dropped, a running one
+  // A job whose `slot` is not empty replaces those of the same slot: a waiting one is dropped, a running one
   // cancelled. So only the newest setting of a slider is worked out. Its lane is the slot up to the first dot or blank.
   // Returns its id.
   std::uint64_t start(const std::string& title, const std::string& slot, Work work, Done done);

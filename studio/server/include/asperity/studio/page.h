@@ -25,11 +25,11 @@ struct Shared {
   Jobs& jobs;
   ForceLease& lease;
   bool may_command_forces = true;  // false: bound to other addresses than this machine's, without the second flag
-  std::function<void(std::function<void()>)> post;   // hands a function to the studio's thread, from any thread
+  std::function<void(std::function<void()>)> post;   // passes a function to the studio's thread, from any thread
   std::shared_ptr<const FeelConfig> feel = nullptr;  // with what the Feel page starts; null: the defaults
   // Throws Advice where a page does not let `client` make an edit (Page::check_edit).
   std::function<void(ClientId client, const Edit& edit)> check_edit = [](ClientId, const Edit&) {};
-  // What could not be stored when no browser can be told any more: the studio's end states it. Thread-safe.
+  // What could not be stored when no browser is connected any more: it is stated at the studio's end. Thread-safe.
   std::function<void(const std::string& sentence)> report_loss = [](const std::string&) {};
 };
 

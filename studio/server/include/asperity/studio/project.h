@@ -21,7 +21,7 @@ bool is_taken(const std::filesystem::path& path);
 // The folder that the studio works in. A browser names files only relative to it, and gets at nothing outside.
 class Project {
  public:
-  // Throws Error if it is no folder.
+  // Throws Error if it is not a folder.
   explicit Project(std::filesystem::path folder);
 
   const std::filesystem::path& folder() const { return folder_; }

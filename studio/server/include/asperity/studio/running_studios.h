@@ -19,7 +19,7 @@ struct RunningStudio {
   std::vector<SessionInfo> sessions;
 };
 
-// As they are told to commands and pages: [{"number","opened","from","agent","windows"}].
+// As commands and pages receive them: [{"number","opened","from","agent","windows"}].
 Json sessions_json(const std::vector<SessionInfo>& sessions);
 
 // In the order of their ports. Those that do not answer within two seconds are left out; what a crashed one left

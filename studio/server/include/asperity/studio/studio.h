@@ -17,7 +17,7 @@ struct StudioConfig {
   WebServerConfig server;
   bool remote_force = false;  // forces also where the host is not this machine's own
   std::filesystem::path folder;
-  // The user's list of projects (recent_projects_file()): a studio takes the port that it had before in its folder, if
+  // The user's list of projects (recent_projects_file()): a studio uses the port that it had before in its folder, if
   // no port is asked for and that one is free. Empty: no list is kept.
   std::filesystem::path recent;
   std::optional<std::string> open;         // recording, scene or mesh in it that is opened first

@@ -28,7 +28,7 @@ struct WebServerConfig {
 // True if only programs on this machine can reach `host`.
 bool is_this_machine_only(const std::string& host);
 
-// What the server tells. Called on its own thread: hand it on.
+// What the server states. Called on its own thread: pass it on.
 struct WebServerEvents {
   std::function<void(ClientId)> joined;
   std::function<void(ClientId)> left;
