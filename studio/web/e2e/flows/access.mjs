@@ -9,6 +9,7 @@ export default async function access({ page, step, equal }) {
   for (const theme of ["light", "dark"]) {
     await step(`no page has a violation in the ${theme} theme`, async () => {
       await page.emulateMedia({ colorScheme: theme });
+      const found = [];
       for (const name of kPages) {
         await page.setViewportSize({ width: 1440, height: 900 });
         await open(page, name);
@@ -18,9 +19,10 @@ export default async function access({ page, step, equal }) {
         }
         for (const [width, height] of kSizes) {
           await page.setViewportSize({ width, height });
-          equal(await violations(page), [], `axe-core on ${name}, ${width} x ${height}`);
+          found.push(...(await violations(page)).map((one) => `${name}, ${width} x ${height}: ${one}`));
         }
       }
+      equal(found, [], "violations of axe-core's rules");
     });
   }
 

@@ -153,7 +153,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     await touch();
     for (let trial = 1; trial <= 3; ++trial) {
       await progress(`Trial ${trial}`);
-      await ready();
+      await pressBoth();
       await page.keyboard.press("2");
     }
     await progress("Trial 4");

@@ -38,12 +38,12 @@ export function PicksPanel() {
       <Table
         caption="Pairs of picked points"
         columns={[
-          { key: "number", label: "", cell: (_, index) => index + 1 },
+          { key: "number", label: "No.", cell: (_, index) => index + 1 },
           { key: "mesh", label: "On the mesh", cell: ({ mesh }) => pointWords(mesh) },
           { key: "apart", label: "Distance", numeric: true, cell: ({ path, mesh }) => apart(path, mesh) },
           {
             key: "remove",
-            label: "",
+            label: "Remove",
             cell: (_, index) => <IconButton icon="trash" label={`Remove pair ${index + 1}`} onClick={() => remove(index)} />,
           },
         ]}

@@ -81,7 +81,7 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
 function StrokeResult({ number, figures }: { number: number; figures: StrokeFigures }) {
   const warp = figures.warp!;
   return (
-    <Panel title={`Stroke ${number}`} testId={`paint-result-${number}`}>
+    <Panel title={`Result of stroke ${number}`} testId={`paint-result-${number}`}>
       <Figures>
         <Figure label="Length over the surface" value={figures.path_length_m} factor={1e3} unit="mm" />
         <Figure label="Triangles" value={String(figures.triangles)} />

@@ -25,7 +25,7 @@ export function ScansPanel({ section, measured }: { section: ProcessSection; mea
       {section.scans.length === 0 && <p class="empty">Choose a recording of the folder to see its result.</p>}
       <ul class="process-scans" role="radiogroup" aria-label="Displayed recording">
         {section.scans.map((scan, index) => (
-          <li key={scanTitle(scan)}>
+          <li key={scanTitle(scan)} role="presentation">
             <label>
               <input type="radio" name="process-current" checked={index === at} onChange={() => change({ ...section, current: index }, `show ${scanTitle(scan)}`)} />
               <span>{scanTitle(scan)}</span>
