@@ -261,7 +261,7 @@ TEST(StudyLog, HasTimesOfTouchAndForces) {
   EXPECT_EQ(log.session.answers().front().touches[0], touches[0]);
   EXPECT_EQ(log.session.answers().front().touches[1], (TileTouch{1.5, 1.25}));
   std::string negative = text;
-  negative.replace(negative.find(",0.5,1.25,"), 5, ",-0.5");
+  negative.replace(negative.find(",0.5,1.25,"), 5, ",-0.5,");
   EXPECT_THAT(fault_of([&] { parse_study_log(negative, "log"); }), HasSubstr("not a force"));
 }
 

@@ -48,6 +48,22 @@ export default async function paint({ page, step, folder, until, equal, near, ok
     await page.getByTestId("paint-result-2").waitFor();
   });
 
+  await step("a drag with the brush adds many points, and is one step", async () => {
+    const view = page.getByTestId("paint-view").locator("canvas");
+    const box = await view.boundingBox();
+    const points = page.getByTestId("paint-points").locator("tbody tr");
+    await page.getByTestId("paint-brush").click();
+    await page.mouse.move(box.x + box.width * 0.55, box.y + box.height * 0.48);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width * 0.42, box.y + box.height * 0.5, { steps: 12 });
+    await page.mouse.up();
+    await until(async () => (await points.count()) >= 4, "points of the drag");
+    await page.getByTestId("paint-brush").click();
+    await page.getByTestId("undo").click();
+    await until(async () => (await points.count()) === 2, "the two points of before");
+    await page.getByTestId("paint-result-2").waitFor();
+  });
+
   await step("undo takes back a step, redo brings it again, a reload loses nothing", async () => {
     await page.locator("#main").focus();
     await page.keyboard.press("Control+z");

@@ -6,6 +6,8 @@ import { floored, number } from "./format";
 export interface Column<Row> {
   key: string;
   label: string;
+  /** The label is for screen readers alone, as above buttons. */
+  unseen?: boolean;
   unit?: string;
   /** What a cell shows; without it row[key], numbers with four digits. */
   cell?(row: Row, index: number): ComponentChildren;
@@ -39,7 +41,7 @@ export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, e
           <tr>
             {columns.map((column) => (
               <th key={column.key} scope="col" class={column.numeric ? "numeric" : undefined}>
-                {column.label}
+                {column.unseen ? <span class="visually-hidden">{column.label}</span> : column.label}
                 {column.unit && <span class="unit"> {column.unit}</span>}
               </th>
             ))}

@@ -43,7 +43,7 @@ export function PicksPanel() {
           { key: "apart", label: "Distance", numeric: true, cell: ({ path, mesh }) => apart(path, mesh) },
           {
             key: "remove",
-            label: "Remove",
+            label: "Remove", unseen: true,
             cell: (_, index) => <IconButton icon="trash" label={`Remove pair ${index + 1}`} onClick={() => remove(index)} />,
           },
         ]}

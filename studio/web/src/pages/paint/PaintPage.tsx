@@ -35,6 +35,7 @@ export default function PaintPage() {
   const [show, setShow] = useState<Show>("coordinates");
   const [hover, setHover] = useState<Hover | null>(null);
   const [busy, setBusy] = useState(false);
+  const [brush, setBrush] = useState(false);
   const gesture = useRef("");
   const asked = useRef(0);
 
@@ -58,6 +59,8 @@ export default function PaintPage() {
     await edit("/paint", { ...paint, strokes: [...paint.strokes, fresh], current: paint.strokes.length }, "start a stroke");
   };
   const pick = (point: Point) => edit(`/paint/strokes/${paint.current}/picks_m`, [...stroke!.picks_m, point], "add a point").catch(complain);
+  const brushed = (points: readonly Point[]) =>
+    edit(`/paint/strokes/${paint.current}/picks_m`, [...stroke!.picks_m, ...points], points.length === 1 ? "add a point" : "draw with the brush").catch(complain);
   const dropPick = () =>
     stroke && stroke.picks_m.length > 0 && edit(`/paint/strokes/${paint.current}/picks_m`, stroke.picks_m.slice(0, -1), "remove a point");
   const move = (index: number, point: Point, first: boolean) => {
@@ -67,6 +70,7 @@ export default function PaintPage() {
   };
 
   useKeys([
+    { key: "b", label: "brush: a drag draws, or rotates the view", run: () => setBrush(!brush) },
     { key: "n", label: "new stroke with the same texture", run: () => stroke && begin(stroke.texture) },
     { key: "backspace", label: "remove the last point", run: dropPick },
     { key: "enter", label: "finish the stroke", run: () => stroke && edit("/paint/current", -1, "finish the stroke") },
@@ -108,6 +112,9 @@ export default function PaintPage() {
       <div class="paint-main">
         <div class="paint-bar">
           <Select label="Show" value={show} options={SHOWS} onChange={(value) => setShow(value as Show)} testId="paint-show" />
+          <Button disabled={!stroke} pressed={brush} hint="A drag over the mesh draws the stroke (B); otherwise it rotates the view" onClick={() => setBrush(!brush)} testId="paint-brush">
+            Brush
+          </Button>
           <Button disabled={!stroke} onClick={() => edit("/paint/current", -1, "finish the stroke")}>
             Finish stroke
           </Button>
@@ -116,7 +123,7 @@ export default function PaintPage() {
           {help(paint, busy)}
         </p>
         <PaintView block={block} strokes={paint.strokes} current={paint.current} show={show} cell_mm={cell_mm} drawing={stroke !== undefined}
-          onPick={pick} onMove={move} onHover={setHover} />
+          brush={brush} half_width_mm={paint.half_width_mm} onBrush={brushed} onPick={pick} onMove={move} onHover={setHover} />
         <p class="paint-legend" data-testid="paint-legend">
           {legend(show, cell_mm, hover)}
         </p>
@@ -138,7 +145,7 @@ function help(paint: PaintSection, busy: boolean): string {
   const stroke = paint.strokes[paint.current];
   if (!stroke) return paint.strokes.length > 0 ? "Choose a stroke to change it, or start another." : "Choose a texture to start a stroke.";
   if (stroke.picks_m.length < 2) return `Click on the mesh, or add numbers at the left: ${2 - stroke.picks_m.length} more ${stroke.picks_m.length === 1 ? "point" : "points"} at least.`;
-  return "Click to add a point, drag a point to move it, press Enter to finish.";
+  return "Click to add a point, drag with Brush to add many, drag a point to move it, press Enter to finish.";
 }
 
 function legend(show: Show, cell_mm: number, hover: Hover | null): string {

@@ -1,11 +1,12 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { Mesh, Object3D } from "three";
+import type { LineLoop, Mesh, Object3D, Vector3 } from "three";
 import type { Block } from "../../net/block";
 import { dark } from "../../app/settings";
 import { themeColour } from "../../plot/colours";
 import { lineFromPoints, sphere } from "../../view3d/helpers";
 import { Viewport } from "../../view3d/Viewport";
 import type { View } from "../../view3d/View";
+import { aim, extended, ring, spacing_m } from "./brush";
 import { colourPaintedMesh, makePaintedMesh, type PaintedMesh } from "./paintedMesh";
 import type { Point, Show, Stroke } from "./painting";
 
@@ -24,6 +25,11 @@ export interface PaintViewProps {
   show: Show;
   cell_mm: number;
   drawing: boolean;
+  /** A drag draws, where it rotates the view otherwise. */
+  brush: boolean;
+  half_width_mm: number;
+  /** The points of a drag, at its end. */
+  onBrush(points: readonly Point[]): void;
   onPick(point: Point): void;
   onMove(pick: number, point: Point, first: boolean): void;
   onHover(hover: Hover | null): void;
@@ -106,6 +112,30 @@ function listen(view: View, props: () => PaintViewProps, mesh: () => PaintedMesh
   let down: { x: number; y: number } | null = null;
   let moved = -1;
   let first = false;
+  let brushed: readonly Point[] = [];
+  let circle: LineLoop | null = null;
+  const trail: Object3D[] = [];
+  const clear = () => trail.splice(0).forEach((one) => view.remove(one));
+  const showRing = (point: Point | null, normal: Vector3 | undefined) => {
+    if (circle) view.remove(circle);
+    circle = null;
+    const { drawing, half_width_mm } = props();
+    if (!point || !normal || !drawing || half_width_mm <= 0) return;
+    circle = ring(themeColour("--accent"));
+    aim(circle, point, normal, half_width_mm * 1e-3);
+    view.add(circle);
+  };
+  const follow = (point: Point) => {
+    const { block, half_width_mm } = props();
+    if (!block) return;
+    const size_m = Math.hypot(...(block.head.high_m as number[]).map((high, axis) => high - block.head.low_m[axis]));
+    const next = extended(brushed, point, spacing_m(half_width_mm, size_m));
+    if (next === brushed) return;
+    brushed = next;
+    const ball = sphere(0.004 * size_m, themeColour("--accent"));
+    ball.position.set(...point);
+    trail.push(view.add(ball));
+  };
   const targets = () => (mesh() ? [mesh()!] : []);
   return view.onPointer({
     targets,
@@ -117,14 +147,26 @@ function listen(view: View, props: () => PaintViewProps, mesh: () => PaintedMesh
         const ball = drawing ? view.raycaster.intersectObjects(balls(), false)[0] : undefined;
         moved = ball ? balls().indexOf(ball.object as Mesh) : -1;
         first = true;
+        if (moved < 0 && drawing && props().brush && point) {
+          follow(point);
+          return true;
+        }
         return moved >= 0;
       }
+      if (kind === "move" || kind === "leave") showRing(point, hit?.face?.normal);
+      if (kind === "move" && brushed.length > 0 && point) follow(point);
       if (kind === "move" && moved >= 0 && point) {
         onMove(moved, point, first);
         first = false;
       } else if (kind === "move") onHover(hoverAt(props().block, hit?.faceIndex ?? -1, hit?.uv ?? null, props().cell_mm));
       if (kind === "leave") onHover(null);
       if (kind !== "up") return;
+      if (brushed.length > 0) {
+        props().onBrush(brushed);
+        brushed = [];
+        down = null;
+        return clear();
+      }
       const isClick = down && Math.hypot(event.clientX - down.x, event.clientY - down.y) < kClick_px;
       if (isClick && moved < 0 && drawing && point) onPick(point);
       down = null;

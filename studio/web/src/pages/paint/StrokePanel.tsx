@@ -39,7 +39,7 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
           { key: "number", label: "No.", cell: (_, index) => index + 1, numeric: true },
           { key: "texture", label: "Texture", cell: (row) => row.texture.replace(/[./]texture\.json$/, "").replace(/^.*\//, "") },
           { key: "length", label: "Length", numeric: true, cell: (row, index) => (row.picks_m.length < 2 ? "–" : figures[index]?.fault ? "fault" : length(figures[index]?.path_length_m, 3)) },
-          { key: "drop", label: "Remove", cell: (_, index) => <IconButton icon="trash" label={`Remove stroke ${index + 1}`} onClick={() => take(index)} /> },
+          { key: "drop", label: "Remove", unseen: true, cell: (_, index) => <IconButton icon="trash" label={`Remove stroke ${index + 1}`} onClick={() => take(index)} /> },
         ]}
       />
       {stroke && stroke.picks_m.length >= 2 && figures[paint.current]?.fault && (
@@ -58,7 +58,7 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
               ...AXES.map((axis, at) => ({ key: axis, label: axis, unit: "mm", numeric: true, cell: (row: Point) => fixed(row[at]! * 1e3, 2) })),
               {
                 key: "drop",
-                label: "Remove",
+                label: "Remove", unseen: true,
                 cell: (_: Point, index: number) => (
                   <IconButton icon="trash" label={`Remove point ${index + 1}`} onClick={() => edit(picks, stroke.picks_m.filter((_, at) => at !== index), "remove a point")} />
                 ),
