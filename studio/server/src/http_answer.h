@@ -35,8 +35,8 @@ struct Site {
   Sessions* sessions = nullptr;  // not null
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
-  std::filesystem::path documents = {};                      // the documents' folder (WebServerConfig)
-  std::function<std::string(std::string_view gzip)> unpack;  // for who takes no gzip
+  std::function<std::string(std::string_view gzip)> unpack;  // for a browser without gzip
+  std::filesystem::path documents = {};                      // of WebServerConfig
 };
 
 // The answer to a request that asks for no WebSocket (docs/studio-safety.md).

@@ -92,7 +92,7 @@ std::string unpack_gzip(std::string_view gzip) {
 
 Site make_site(const WebServerConfig& config, int port) {
   const bool encrypted = !config.tls_certificate.empty();
-  Site site{OwnHosts(config.host, port, encrypted), nullptr, {}, {}, config.documents, unpack_gzip};
+  Site site{OwnHosts(config.host, port, encrypted), nullptr, {}, {}, unpack_gzip, config.documents};
   // Cookies know no ports: a second studio's would take this one's place. Of a name with the prefix browsers take a
   // cookie from an encrypted page alone.
   site.cookie_name = (encrypted ? "__Host-asperity_" : "asperity_") + std::to_string(port);

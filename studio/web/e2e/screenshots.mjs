@@ -49,6 +49,11 @@ async function looks(page, name, before) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: theme });
       await before?.({ page });
+      const part = page.getByRole("button", { name: "View", exact: true });
+      if (all && !before && (await part.isVisible())) {
+        writeFileSync(join(all, `${name}-${width}-${theme}-settings.png`), await taken(page, false));
+        await part.click();
+      }
       const picture = await taken(page, before !== undefined);
       if (all) found.push(...(await violations(page)).map((one) => `${name}, ${width} × ${height}, ${theme}: ${one}`));
       if (all) writeFileSync(join(all, `${name}-${width}-${theme}.png`), picture);

@@ -86,6 +86,9 @@ async function feel({ page }) {
 /** Over the stroke, pressing and stroking a little. Where the stroke is seen depends on the window: the pointer searches for it. */
 async function touch({ page }) {
   await page.mouse.up();
+  // A narrow window shows one part at a time.
+  const part = page.getByRole("button", { name: "View", exact: true });
+  if (await part.isVisible()) await part.click();
   const view = page.getByTestId("feel-view");
   const fit = () => view.getByRole("button", { name: "fit" }).click();
   await fit();
@@ -130,7 +133,7 @@ async function study({ page, folder, asperity }) {
   await type(page.getByTestId("study-participant"), "p01");
   await page.getByTestId("study-begin").click();
   await page.getByTestId("study-touch").click();
-  await page.getByTestId("study-advice").filter({ hasText: "Touch both" }).waitFor();
+  await page.getByTestId("study-advice").filter({ hasText: /Touch both|ress on|Both are|No force/ }).waitFor();
 }
 
 async function home({ page, asperity }) {
