@@ -1,7 +1,8 @@
-// The search of a page that is opened from a disk: a browser starts no worker there, so its script runs in a hidden frame.
-// The theme's worker looks for `IFrameWorker` in its parent and then finds its languages beside its own script.
+// The search's index is a script: a page of a disk, or of the studio's server, cannot request it as data.
+document.write('<script src="' + document.currentScript.dataset.index + '"></' + "script>");
+// For a page that is opened from a disk a browser starts no worker, so its script runs in a hidden frame.
+// The theme's worker looks for `IFrameWorker` in its parent and then finds its languages next to its own script.
 if (location.protocol === "file:") {
-  document.write('<script src="' + document.currentScript.dataset.index + '"></' + "script>");
   window.IFrameWorker = class extends EventTarget {
     constructor(url) {
       super();
