@@ -49,7 +49,10 @@ class RecordCommand : public Command {
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
         ->type_name("ADDRESS");
-    parser().add_option("--protocol", input_.protocol, "open (the default), or what (the WHaT, the probe of Andrews's thesis)")->type_name("NAME");
+    parser()
+        .add_option("--protocol", input_.protocol,
+                    "open (the default), or what (the WHaT, the probe of Andrews's thesis)")
+        ->type_name("NAME");
     parser()
         .add_option("--capture", input_.capture,
                     "Also write the bytes of the probe to a new file, for --probe file:CAPTURE")

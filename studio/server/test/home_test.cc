@@ -92,8 +92,8 @@ TEST(DocumentAnswer, ServesFilesOfTheSiteAndNothingElse) {
   EXPECT_EQ(get("/docs").body, "all");
   EXPECT_EQ(get("/docs/").body, "all");
   EXPECT_EQ(get("/docs/start/install.html").body, "install");
-  for (const char* path : {"/docs/../secret.html", "/docs/%2e%2e/secret.html", "/docs/.hidden.html", "/docs//index.html",
-                           "/docsindex.html", "/docs/start", "/docs/none.html"}) {
+  for (const char* path : {"/docs/../secret.html", "/docs/%2e%2e/secret.html", "/docs/.hidden.html",
+                           "/docs//index.html", "/docsindex.html", "/docs/start", "/docs/none.html"}) {
     EXPECT_EQ(get(path).status, 404U) << path;
   }
   bool has_policy = false;

@@ -190,7 +190,7 @@ TEST_F(StudyPageTest, TakesNoAnswerBeforeBothWereTouchedWithForce) {
   rig.press(true);
   EXPECT_TRUE(rig.session()["may_answer"].get<bool>());
   EXPECT_EQ(rig.ask("study.answer", first).error, "");
-  EXPECT_FALSE(rig.session()["touched_left"].get<bool>()) << "of the next trial";
+  EXPECT_FALSE(rig.session()["touched_a"].get<bool>()) << "of the next trial";
   const StudyLog written = parse_study_log(log(), "log");
   for (const TileTouch& touch : written.session.answers().front().touches) {
     EXPECT_GE(touch.touch_s, 0.2);
@@ -215,6 +215,7 @@ TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   ASSERT_EQ(rig.ask("study.begin").error, "");
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was touched"));
   rig.touch();
+  rig.press_all();
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 2}, {"answer", 0}}).error, HasSubstr("answered already"));
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("not an answer"));
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 1e15}}).error, HasSubstr("not an answer"));

@@ -82,7 +82,7 @@ class StudyRig {
     const std::int64_t until_ns = host_now_ns() + 200'000'000;
     EXPECT_TRUE(pump([&] { return host_now_ns() > until_ns; }));
     pointer_m.z() = -0.004;
-    EXPECT_TRUE(pump([&] { return session()[right ? "touched_right" : "touched_left"].get<bool>(); }));
+    EXPECT_TRUE(pump([&] { return session()[right ? "touched_b" : "touched_a"].get<bool>(); }));
   }
   // Both tiles, or the only one of a rating.
   void press_all() {

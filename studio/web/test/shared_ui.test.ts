@@ -50,8 +50,8 @@ test("jobs come, change and go", () => {
 
 test("addresses lead to pages, and what is none to the first", () => {
   expect(routeOf("#/align").id).toBe("align");
-  expect(routeOf("#token=abc").id).toBe("scan");
-  expect(routeOf("#/nowhere").id).toBe("scan");
+  expect(routeOf("#token=abc").id).toBe("home");
+  expect(routeOf("#/nowhere").id).toBe("home");
 });
 
 test("round steps are 1, 2 and 5", () => {

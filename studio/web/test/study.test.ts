@@ -48,8 +48,8 @@ const session = (changes: Partial<Session> = {}): Session => ({
   touching: false,
   ready: false,
   touched: false,
-  touched_left: false,
-  touched_right: false,
+  touched_a: false,
+  touched_b: false,
   may_answer: false,
   may_take_back: false,
   ...changes,
@@ -101,8 +101,8 @@ describe("a session", () => {
     expect(adviceOf(session({ touching: true }), true)).toMatch(/until the textures are ready/);
     expect(adviceOf(session({ touching: true }), false)).toMatch(/does not have the force/);
     expect(adviceOf(session({ touching: true, ready: true, touched: true }), false)).toBe("Touch both: press on A and on B.");
-    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_left: true }), false)).toBe("Now press on B, right.");
-    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_left: true, touched_right: true, may_answer: true }), false)).toMatch(/answer with 1 or 2/);
+    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_a: true }), false)).toBe("Now press on B, right.");
+    expect(adviceOf(session({ touching: true, ready: true, touched: true, touched_a: true, touched_b: true, may_answer: true }), false)).toMatch(/answer with 1 or 2/);
     expect(adviceOf(session({ touched: true, may_answer: true, method: "rating" }), false)).toMatch(/again, or answer with 1 to 7/);
   });
 

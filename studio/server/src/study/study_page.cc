@@ -194,8 +194,8 @@ Json StudyPage::status() const {
   each["touching"] = host_.is_visited();
   each["ready"] = touch_since_ns_ != 0;
   each["touched"] = touched_;
-  each["touched_left"] = is_touched(0);
-  each["touched_right"] = is_touched(1);
+  each["touched_a"] = is_touched(0);
+  each["touched_b"] = is_touched(1);
   each["may_answer"] = is_whole_trial_touched();
   each["may_take_back"] = session_->can_take_back();
   out["session"] = std::move(each);

@@ -1,6 +1,6 @@
 // Plots with the same key: they show the same range of x, and have the same measuring cursors.
 import { signal, type Signal } from "@preact/signals";
-import type { Cursors } from "./measure";
+import type { Cursors } from "./cursors";
 import type { Range } from "./zoom";
 
 export interface Linked {

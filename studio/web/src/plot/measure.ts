@@ -1,15 +1,9 @@
 // Two cursors of a plot, and what is between them.
 import { floored, number, quantity, withUnit } from "../ui/format";
+import type { CursorName, Cursors } from "./cursors";
 import type { PlotProps } from "./props";
 import { nearest, type Series } from "./series";
 import type { Range } from "./zoom";
-
-/** Values of x. */
-export interface Cursors {
-  a: number;
-  b: number;
-}
-export type CursorName = keyof Cursors;
 
 const kStep = 1 / 200;
 

@@ -1,4 +1,4 @@
-import type { Cursors } from "./measure";
+import type { Cursors } from "./cursors";
 import type { AxisWords } from "./options";
 import type { Series } from "./series";
 

@@ -97,10 +97,10 @@ function TrialView({ session }: { session: Session }) {
         ) : (
           <>
             <Button onClick={() => answer(0)} disabled={!session.may_answer} testId="study-answer-a">
-              <kbd>1</kbd> A, left{session.touched_left && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
+              <kbd>1</kbd> A, left{session.touched_a && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
             </Button>
             <Button onClick={() => answer(1)} disabled={!session.may_answer} testId="study-answer-b">
-              <kbd>2</kbd> B, right{session.touched_right && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
+              <kbd>2</kbd> B, right{session.touched_b && <span class="study-mark"> ✓<span class="visually-hidden"> touched</span></span>}
             </Button>
           </>
         )}

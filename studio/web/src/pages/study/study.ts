@@ -40,8 +40,8 @@ export interface Session {
   ready: boolean;
   touched: boolean;
   /** Pressed with force for long enough. */
-  touched_left: boolean;
-  touched_right: boolean;
+  touched_a: boolean;
+  touched_b: boolean;
   /** All textures of the trial were: an answer is accepted. */
   may_answer: boolean;
   may_take_back: boolean;
@@ -176,7 +176,7 @@ export function adviceOf(session: Session, held: boolean): string {
   if (!session.ready) return "Please wait until the textures are ready.";
   if (session.method === "rating") return session.may_answer ? `Touch the real object too, then ${answer}.` : "Press on the texture.";
   if (session.may_answer) return `Both are touched: ${answer}, or continue to touch.`;
-  if (session.touched_left !== session.touched_right) return `Now press on ${session.touched_left ? "B, right" : "A, left"}.`;
+  if (session.touched_a !== session.touched_b) return `Now press on ${session.touched_a ? "B, right" : "A, left"}.`;
   return "Touch both: press on A and on B.";
 }
 
