@@ -95,6 +95,14 @@ Periodicity find_along(std::span<const double> height_m, double spacing_m, const
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
     return out;
   }
+  // Of two waves the second may stand out further than the first, of which the noise has more.
+  if (2.0 * out.pitch_m <= longest_m && search.is_second_of_pair(out.pitch_m)) {
+    const Periodicity whole = follow_pattern(quiet_m, spacing_m, 2.0 * out.pitch_m, config);
+    if (std::isfinite(whole.pitch_m)) {
+      out = whole;
+      out.periodic = out.periods >= kFewestPeriods;
+    }
+  }
   out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, noise.along_sigma * out.pitch_m);
   measure_depth_under_noise(height_m, spacing_m, noise, out);
   return out;
@@ -140,6 +148,7 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     Periodicity out = find_along(path.straightened(height_m, rib.tangent), spacing_m, noise, config,
                                  {kRibsShare, ribs.range * path.bend_rms_m()});
     if (!out.periodic) continue;
+    out.rib_tangent = rib.tangent;
     out.across_pitch_m = path.across_over_along(rib.tangent) * out.pitch_m;
     out.across_pitch_stderr_m = out.across_pitch_m * std::hypot(out.pitch_stderr_m / out.pitch_m,
                                                                 rib.sigma * path.change_of_across(rib.tangent));

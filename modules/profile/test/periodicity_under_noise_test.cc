@@ -60,6 +60,32 @@ TEST(PeriodicityUnderNoise, FindsNoPitchInNoise) {
   }
 }
 
+// Two waves of one height, 2 and 1 mm long. The noise falls with the frequency: at the first it has 16 times the
+// density that it has at the second, so the second stands out further. Its length is half the pitch. One wave alone
+// keeps its own length.
+TEST(PeriodicityUnderNoise, OfTwoEqualWavesTheLongerOneIsThePitch) {
+  constexpr double kHeight_m = 16e-6;
+  const TextureNoise noise = make_noise(60e-6);
+  int right = 0, half = 0, alone = 0, twice = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const std::vector<double> short_m = disturbed(kHeight_m, 1e-3, noise, seed);
+    std::vector<double> both_m = short_m;
+    for (std::size_t i = 0; i < kPoints; ++i)
+      both_m[i] += kHeight_m * std::cos(2.0 * std::numbers::pi * kSpacing_m * static_cast<double>(i) / 2e-3);
+    const auto is_near = [](double pitch_m, double expected_m) { return std::abs(pitch_m / expected_m - 1.0) < 0.01; };
+    const Periodicity of_both = find_periodicity_under_noise(both_m, kSpacing_m, noise, {});
+    right += of_both.periodic && is_near(of_both.pitch_m, 2e-3) ? 1 : 0;
+    half += of_both.periodic && is_near(of_both.pitch_m, 1e-3) ? 1 : 0;
+    const Periodicity of_one = find_periodicity_under_noise(short_m, kSpacing_m, noise, {});
+    alone += of_one.periodic && is_near(of_one.pitch_m, 1e-3) ? 1 : 0;
+    twice += of_one.periodic && is_near(of_one.pitch_m, 2e-3) ? 1 : 0;
+  }
+  EXPECT_GE(right, 34);
+  EXPECT_LE(half, 3);
+  EXPECT_GE(alone, 38);
+  EXPECT_LE(twice, 2);  // the first wave's ordinate may be noise in 1 %
+}
+
 // A hand's tremor at 25 mm/s: waves of 8 to 12 Hz, five times as high as the pattern, that are no noise.
 std::vector<double> with_tremor(double amplitude_m, double pitch_m, const TextureNoise& noise, std::uint64_t seed) {
   std::vector<double> out = disturbed(amplitude_m, pitch_m, noise, seed);
