@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "sample_clock.h"
 #include "smooth_batches.h"
 
 namespace asperity {
@@ -39,23 +41,6 @@ double period_ns(const std::vector<std::int64_t>& t_ns) {
   return count ? sum / static_cast<double>(count) : rough;
 }
 
-// Counts periods with a loop that follows the stamps' phase and, slowly, the period itself.
-std::vector<double> count_periods(const std::vector<std::int64_t>& t_ns, double& period) {
-  constexpr double kPhaseGain = 0.05;
-  constexpr double kPeriodGain = 0.0005;
-  std::vector<double> count(t_ns.size(), 0.0);
-  double phase = 0.0;  // the loop's time of the last sample, ns after the first
-  for (std::size_t i = 1; i < t_ns.size(); ++i) {
-    const auto t = static_cast<double>(t_ns[i] - t_ns[0]);
-    const double steps = std::max(1.0, std::round((t - phase) / period));
-    const double error = t - (phase + steps * period);
-    phase += steps * period + kPhaseGain * error;
-    period += kPeriodGain * error / steps;
-    count[i] = count[i - 1] + steps;
-  }
-  return count;
-}
-
 }  // namespace
 
 SmoothClockResult smooth_clock(const std::vector<std::int64_t>& t_ns, const SmoothClockConfig& config) {
@@ -79,7 +64,10 @@ SmoothClockResult smooth_clock(const std::vector<std::int64_t>& t_ns, const Smoo
   if (scatter < kRegular * period) return result;
   if (auto batches = smooth_batches(t_ns, kBatchWindows * config.window_s)) return *std::move(batches);
 
-  const std::vector<double> count = count_periods(t_ns, period);
+  const std::optional<SampleClock> found = find_sample_clock(t_ns);
+  if (!found) return result;
+  const std::vector<double>& count = found->count;
+  period = found->period_ns;
   // Sums relative to the straight line of the nominal period keep their digits over hours.
   const std::size_t n = t_ns.size();
   std::vector<double> residual(n);
