@@ -90,6 +90,16 @@ void add_object(const ObjectMotion& object, const TipMotion& motion, const BaseP
   out.object_slow_time_s = noise.slow_time_s;
 }
 
+// The least density of the tracker's noise along the normal, m² s. Where the acceleration errs along the normal alone,
+// as a contact's ringing makes it err, the other axes are known and the tracker's three axes measure this one error:
+// their information adds up. The noise was learnt from `poses` poses: its variance has the relative error √(2/poses).
+double least_tracker_psd_m2ps(const Eigen::Vector3d& mean_square_normal, const Eigen::Vector3d& tracker_psd_m2ps,
+                              double poses) {
+  constexpr double kSure = 2.33;  // one-sided 99 %, as each octave's limit (measure_error_floor.h)
+  const double least = 1.0 / mean_square_normal.cwiseQuotient(tracker_psd_m2ps).sum();
+  return least / (1.0 + kSure * std::sqrt(2.0 / std::max(poses, 2.0)));
+}
+
 // Along the normal, along the path and across it.
 std::vector<AccelerationAtRest> accelerations_at_rest(const TipMotion& motion, const std::vector<double>& normal_mps2,
                                                       const Eigen::Vector3d& normal, const Eigen::Vector3d& along,
@@ -175,7 +185,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     const double most = largest_acceleration_noise_m2ps3(t_s, position_m, moving, tracker_m2ps);
     return std::max(own_m2ps3, std::min(seen + lost, most));
   };
-  out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m, out.tracker_psd_m2ps);
+  out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m,
+                                    least_tracker_psd_m2ps(normal_square / samples, tracker_psd, figure("poses_used")));
   out.accel_own_psd_m2ps3 = std::min(own_m2ps3, out.accel_psd_m2ps3);
   // Along the path the hand's own motion fills the low frequencies: nothing bounds the noise from above.
   out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, 0.0);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/signal/chi_square.h"
 #include "asperity/signal/spectrum.h"
 
 namespace asperity {
@@ -22,6 +23,7 @@ constexpr double kLowestFloor_Hz = 12.0;
 constexpr double kFloorWidth = 1.2599;  // a third of an octave
 constexpr double kPositionSegment_s = 1.3;
 constexpr double kLowestPosition_Hz = 1.6, kHighestPosition_Hz = 50.0;
+constexpr double kLowByChance = 0.01;  // of each of the five octaves
 constexpr double kPause_s = 0.05;
 constexpr double kLostStep = 1.5;  // of the period, of a smoothed clock
 constexpr double kLost = 2.2;      // of the period: a longer step has lost samples, however its stamps jitter
@@ -195,8 +197,10 @@ double largest_acceleration_noise_m2ps3(std::span<const double> t_s, std::span<c
   const PowerSpectrum spectrum = mean_spectrum(position_m, runs, 1.0 / period_s, segment);
   if (spectrum.segments < 2) return largest;
   for (const Octave& octave : octaves(spectrum, kLowestPosition_Hz, kHighestPosition_Hz, 2.0)) {
-    // By chance the density is this much lower than its expectation; overlapping segments count as half.
-    const double chance = 1.0 + 2.0 / std::sqrt(0.5 * octave.lines * static_cast<double>(spectrum.segments));
+    // By chance the density is this much lower than its expectation. Hann windows correlate neighbouring lines: a line
+    // of a segment counts as half.
+    const double freedom = std::max(2.0, octave.lines * static_cast<double>(spectrum.segments));
+    const double chance = freedom / chi_square_quantile(kLowByChance, freedom);
     const double share = chance * octave.density / tracker_psd_m2ps;
     if (share < 1.0) largest = std::min(largest, chance * octave.acceleration / (1.0 - share));
   }

@@ -216,6 +216,35 @@ TEST(ErrorFloor, IsBoundedByWhatTheHeightHasInIt) {
   EXPECT_TRUE(std::isinf(largest_acceleration_noise_m2ps3(t_s, moving, {}, 1e-9)));
 }
 
+// A tracker of density R and an acceleration whose noise of density A is far above (2πf)⁴ R at the low octaves: the
+// best smoothing leaves R there, whatever A is. In short recordings, as scans are, the density of few ordinates is
+// below R by chance, and must not be taken for a small A.
+TEST(ErrorFloor, IsNotBoundedWhereTheTrackerAloneIsSeen) {
+  constexpr double kRate_Hz = 400.0, kDuration_s = 3.0;
+  constexpr double kAccel_m2ps3 = 0.02, kTracker_m2ps = 1e-9;  // they meet at 10.6 Hz
+  constexpr auto kSamples = static_cast<int>(kRate_Hz * kDuration_s);
+  int too_low = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    // The error that a Wiener smoother leaves, as a sum of waves with its density: they are 1/T apart.
+    std::vector<double> t_s(kSamples), x(kSamples, 0.0);
+    for (int i = 0; i < kSamples; ++i) t_s[i] = i / kRate_Hz;
+    for (double f = 0.5 / kDuration_s; f < 60.0; f += 1.0 / kDuration_s) {
+      const double w4 = std::pow(2.0 * std::numbers::pi * f, 4);
+      const double density = kAccel_m2ps3 * kTracker_m2ps / (kAccel_m2ps3 + kTracker_m2ps * w4);
+      const double a = std::sqrt(density / kDuration_s) * random.normal(),
+                   b = std::sqrt(density / kDuration_s) * random.normal();
+      for (int i = 0; i < kSamples; ++i) {
+        const double phase = 2.0 * std::numbers::pi * f * t_s[i];
+        x[i] += a * std::cos(phase) + b * std::sin(phase);
+      }
+    }
+    if (largest_acceleration_noise_m2ps3(t_s, x, {}, kTracker_m2ps) < kAccel_m2ps3) ++too_low;
+  }
+  // Five octaves, each wrong in 1 %: 10 of 200. Twice that is 3 σ (binomial).
+  EXPECT_LE(too_low, 20);
+}
+
 // White noise of density W lost over L samples and bridged by a straight line: the velocity is wrong by the line's mean
 // of its two ends and by what was lost, p² σ² (L + L²/2) with σ² = W/(2p).
 TEST(ErrorFloor, OfLostSamplesIsThatOfTheStraightLineOverThem) {
