@@ -17,6 +17,7 @@
 #include "fft.h"
 #include "find_unknown_pitch.h"
 #include "noise_twin.h"
+#include "pitch_by_chance.h"
 #include "true_figures.h"
 
 namespace bench {
@@ -161,6 +162,7 @@ bool oracle_has_a_pitch(const ScanCase& scan, const TrueProfile& truth, double s
     const double pitch_m = find_unknown_pitch_m(disturbed, truth.measured_error_m, spacing_m);
     if (k == 0) first_m = pitch_m;
     if (!(std::abs(pitch_m / first_m - 1.0) < kSamePitch)) return false;
+    if (!exceeds_random_surface(disturbed, spacing_m, pitch_m)) return false;
   }
   return true;
 }
@@ -168,8 +170,9 @@ bool oracle_has_a_pitch(const ScanCase& scan, const TrueProfile& truth, double s
 // The spread of the texture's figure over twins of the measured heights' actual error added to the truth: what one
 // would have to live with who knew that error's spectrum, and took its bias off. Of a pattern's figures, one who is
 // `told` the maker's pitch, or else looks for it in each twin (find_unknown_pitch.h); where that misses the pitch by
-// more than a tenth in one of them, it is not determined. Of the shape, one who takes the noise's cumulants off, or
-// `told` that the figure of the noisy heights is near the surface's, as it is where both are Gaussian.
+// more than a tenth in one of them, or a random surface may have it (pitch_by_chance.h), it is not determined. Of the
+// shape, one who takes the noise's cumulants off, or `told` that the figure of the noisy heights is near the surface's,
+// as it is where both are Gaussian.
 double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m,
                     bool told) {
   asperity::Random random(scan.seed, kTwinStream);
@@ -183,6 +186,7 @@ double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProf
     if (!told && kind.needs_pitch) {
       pitch_m = find_unknown_pitch_m(disturbed, truth.measured_error_m, spacing_m);
       if (!(std::abs(pitch_m / scan.pitch_m - 1.0) < kSamePitch)) return kMissing;
+      if (!exceeds_random_surface(disturbed, spacing_m, pitch_m)) return kMissing;
     }
     try {
       double value = kind.of_texture({disturbed, spacing_m, pitch_m});

@@ -38,6 +38,17 @@ Damage tracker_late(double late_s) {
   };
 }
 
+// From the middle of the recording on: by `late_s`, and by `faster` of the time since then.
+Damage tracker_late_from_middle(double late_s, double faster) {
+  return [=](Recording& r) {
+    const std::int64_t middle_ns = r.tracker.t_ns.front() + (r.tracker.t_ns.back() - r.tracker.t_ns.front()) / 2;
+    for (std::int64_t& t_ns : r.tracker.t_ns) {
+      if (t_ns < middle_ns) continue;
+      t_ns += static_cast<std::int64_t>(std::llround(late_s * 1e9 + faster * static_cast<double>(t_ns - middle_ns)));
+    }
+  };
+}
+
 Damage poses(std::function<Pose(const Pose&)> change) {
   return [change = std::move(change)](Recording& r) { each_pose(r, change); };
 }
@@ -146,6 +157,8 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
   add("clock", "tracker 20 ms early", tracker_late(-0.02));
   add("clock", "tracker 5 ms late", tracker_late(0.005));
   add("clock", "tracker 5 ms early", tracker_late(-0.005));
+  add("clock", "tracker 50 ms later from the middle on", tracker_late_from_middle(0.05, 0.0));
+  add("clock", "tracker 3 % fast from the middle on", tracker_late_from_middle(0.0, 0.03));
 
   Eigen::Matrix3d swap_xy;
   swap_xy << 0, 1, 0, 1, 0, 0, 0, 0, 1;
@@ -180,6 +193,11 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
     for (std::size_t i = 0; i < r.tracker.size(); ++i)
       r.tracker.T_world_marker[i] = r.tracker.T_world_marker[i / 4 * 4];
   });
+  add("tracker", "the same pose for a fifth of the scan", [](Recording& r) {
+    const std::size_t first = 2 * r.tracker.size() / 5;
+    for (std::size_t i = first; i < first + r.tracker.size() / 5; ++i)
+      r.tracker.T_world_marker[i] = r.tracker.T_world_marker[first];
+  });
   add("tracker", "noise in place of poses", [](Recording& r) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> n;
@@ -205,6 +223,15 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
   add("accelerometer", "z negative", forces([](const V& f) { return V(f.x(), f.y(), -f.z()); }));
   add("accelerometer", "all negative", forces([](const V& f) { return V(-f); }));
   add("accelerometer", "in g instead of m/s²", forces([](const V& f) { return V(f / 9.80665); }));
+  add("accelerometer", "without gravity", [](Recording& r) {
+    std::size_t pose = 0;
+    for (std::size_t i = 0; i < r.probe.size(); ++i) {
+      while (pose + 1 < r.tracker.size() && r.tracker.t_ns[pose + 1] < r.probe.t_ns[i]) ++pose;
+      const V g_mps2 = r.tracker.T_world_marker[pose].rotation.conjugate() * r.info.gravity_world_mps2;
+      const AccelerometerCalibration& c = r.calibration.accelerometer;
+      r.probe.accel_counts[i] = c.counts(c.specific_force_mps2(r.probe.accel_counts[i]) + g_mps2);
+    }
+  });
   add("accelerometer", "scale 1.1", forces([](const V& f) { return V(1.1 * f); }));
   add("accelerometer", "scale 0.9", forces([](const V& f) { return V(0.9 * f); }));
   add("accelerometer", "x twice (in place of y)", counts([](const V& f) { return V(f.x(), f.x(), f.z()); }));
@@ -242,6 +269,9 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
   });
   add("gyroscope", "x and y exchanged", [](Recording& r) {
     for (V& c : r.probe.gyro_counts) std::swap(c.x(), c.y());
+  });
+  add("gyroscope", "y and z exchanged", [](Recording& r) {
+    for (V& c : r.probe.gyro_counts) std::swap(c.y(), c.z());
   });
   add("gyroscope", "negative", [](Recording& r) {
     if (!r.calibration.gyroscope) return;

@@ -161,8 +161,10 @@ Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const Pr
                                                         noise, config.roughness);
     // Where noise hides the single elements, those of the pattern.
     if (!std::isfinite(out.RSm_m) && before.periodicity.value) {
+      std::vector<Eigen::Vector2d> unrolled_m;
+      if (before.base.value) unrolled_m = unroll_path(before.base.value->path, profile.s_m);
       const ElementWidth width = pattern_element_width(profile.texture_m, profile.spacing_m, *before.periodicity.value,
-                                                       noise, config.roughness);
+                                                       noise, config.roughness, unrolled_m);
       out.RSm_m = width.mean_m;
       out.standard_error.RSm_m = width.stderr_m;
     }

@@ -113,11 +113,14 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.latency_s = metric("latency_s");
   out.latency_beyond_prior_s = metric("latency_beyond_prior_s");
   out.latency_beyond_prior_sigma_s = metric("latency_beyond_prior_sigma_s");
+  out.latency_change_s = metric("latency_change_s");
+  out.latency_change_sigma_s = metric("latency_change_sigma_s");
   out.tracker_scale_error = metric("tracker_scale_error");
   out.tracker_scale_error_sigma = metric("tracker_scale_error_sigma");
   out.tracker_axes_chi2 = metric("tracker_axes_chi2");
   prefer_windows(force, out);
   out.accel_axes_chi2 = metric("accel_axes_chi2");
+  out.gyro_axes_chi2 = metric("gyro_axes_chi2");
   out.other_axes_log_ratio = metric("other_axes_log_ratio");
   out.accel_motion_share = metric("accel_motion_share");
   out.tracker_noise_ratio = metric("tracker_noise_ratio");

@@ -66,7 +66,9 @@ Periodicity find_along(std::span<const double> height_m, double spacing_m, const
                           highest_noise(noise), config.min_pitch_m, longest_m, hypotheses);
   // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
   const auto follow_line = [&](double shortest_m, double most_m) {
-    const double line_m = search.find_line_m(shortest_m, most_m);
+    double line_m = search.find_line_m(shortest_m, most_m);
+    // Of two waves the second may stand out further than the first, of which noise has more.
+    if (search.is_second_of_pair(line_m) && 2.0 * line_m <= most_m) line_m *= 2.0;
     const Periodicity found = line_m > 0.0 ? follow_pattern(quiet_m, spacing_m, line_m, config) : Periodicity{};
     if (!std::isfinite(found.pitch_m)) return false;
     out = found;
@@ -140,6 +142,7 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     Periodicity out = find_along(path.straightened(height_m, rib.tangent), spacing_m, noise, config,
                                  {kRibsShare, ribs.range * path.bend_rms_m()});
     if (!out.periodic) continue;
+    out.rib_tangent = rib.tangent;
     out.across_pitch_m = path.across_over_along(rib.tangent) * out.pitch_m;
     out.across_pitch_stderr_m = out.across_pitch_m * std::hypot(out.pitch_stderr_m / out.pitch_m,
                                                                 rib.sigma * path.change_of_across(rib.tangent));

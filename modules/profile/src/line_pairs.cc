@@ -74,4 +74,14 @@ std::size_t LineSearch::find_pair(std::size_t first, std::size_t last) const {
   return 0;
 }
 
+bool LineSearch::is_second_of_pair(double length_m) const {
+  if (!(length_m > 0.0) || !has_line(2.0 * length_m, 1)) return false;
+  // The fundamental's bin is that of half the line's frequency, or one of its neighbours.
+  const auto middle = static_cast<std::size_t>(std::lround(0.5 * length_m_ / length_m));
+  for (std::size_t bin = middle > 1 ? middle - 1 : 1; bin <= middle + 1; ++bin) {
+    if (may_be_pair(bin) && is_pair(bin)) return true;
+  }
+  return false;
+}
+
 }  // namespace asperity

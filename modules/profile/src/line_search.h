@@ -47,6 +47,9 @@ class LineSearch {
   // Of a pattern that is there: whether this harmonic stands out of the noise and of its neighbours, at 1 % for itself.
   bool has_line(double pitch_m, int harmonic) const;
 
+  // Whether a line of this length is the second of a pair, whose first wave stands out by itself as well (1 %).
+  bool is_second_of_pair(double length_m) const;
+
   // How many waves down to the shortest pass what is asked of an ordinate by itself. Only these are compared with their
   // neighbours, which takes a fixed number of passes over the heights: at most 158 times the heights with their gaps
   // over those that are present (docs/periodicity.md), however long the profile is. Of pairs, at most 64 are.

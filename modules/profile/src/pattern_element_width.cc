@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "bent_path.h"
 #include "profile_features.h"
 
 namespace asperity {
@@ -56,12 +57,14 @@ double departure_m2(std::span<const double> height_m, double spacing_m, double p
 
 }  // namespace
 
-ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
-                                   const TextureNoise& noise, const RoughnessConfig& config) {
+namespace {
+
+// Of a pattern whose period is the same all along.
+ElementWidth even_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
+                                const TextureNoise& noise, const RoughnessConfig& config) {
   ElementWidth out;
   if (!pattern.periodic || pattern.periods == 0 || !(pattern.pitch_m > 0.0) || !std::isfinite(pattern.pitch_stderr_m))
     return out;
-  if (std::isfinite(pattern.across_pitch_m)) return out;  // the period changes along the path
   if (config.lambda_s_mm > 0.0 || config.lambda_c_mm > 0.0) return out;
   const std::vector<double> period = mean_period(height_m, spacing_m, pattern.pitch_m);
   if (period.empty()) return out;
@@ -89,6 +92,35 @@ ElementWidth pattern_element_width(std::span<const double> height_m, double spac
   out.mean_m = pattern.pitch_m / elements;
   out.stderr_m = std::hypot(pattern.pitch_stderr_m / elements, out.mean_m / periods);
   return out;
+}
+
+double missing_share(std::span<const double> height_m) {
+  double missing = 0.0;
+  for (const double h : height_m) missing += std::isfinite(h) ? 0.0 : 1.0;
+  return missing / static_cast<double>(height_m.size());
+}
+
+}  // namespace
+
+ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
+                                   const TextureNoise& noise, const RoughnessConfig& config,
+                                   std::span<const Eigen::Vector2d> unrolled_m) {
+  if (!std::isfinite(pattern.across_pitch_m)) return even_element_width(height_m, spacing_m, pattern, noise, config);
+  if (!std::isfinite(pattern.rib_tangent) || unrolled_m.size() != height_m.size()) return {};
+  const BentPath path(unrolled_m, spacing_m);
+  if (!path.bends() || !path.crosses(pattern.rib_tangent)) return {};
+  Periodicity even = pattern;
+  even.pitch_stderr_m = pattern.pitch_m * pattern.across_pitch_stderr_m / pattern.across_pitch_m;
+  ElementWidth out =
+      even_element_width(path.straightened(height_m, pattern.rib_tangent), spacing_m, even, noise, config);
+  const double uneven = path.spread_of_period(pattern.rib_tangent) * missing_share(height_m);
+  out.stderr_m = std::hypot(out.stderr_m, uneven * out.mean_m);
+  return out;
+}
+
+ElementWidth pattern_element_width(std::span<const double> height_m, double spacing_m, const Periodicity& pattern,
+                                   const TextureNoise& noise, const RoughnessConfig& config) {
+  return pattern_element_width(height_m, spacing_m, pattern, noise, config, {});
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/random.h"
+#include "asperity/profile/find_periodicity_under_noise.h"
 
 namespace asperity {
 namespace {
@@ -107,6 +108,62 @@ TEST(PatternElementWidth, IsNotDeterminedWhereRoughnessMaySplitElements) {
     EXPECT_FALSE(
         std::isfinite(pattern_element_width(heights_m, kSpacing_m, pattern_of(2.4e-3, 20), noise_of(3e-6)).mean_m));
   }
+}
+
+// Straight ribs of uneven height and place, `turned_rad` from the chord of an arc of 80 mm that turns by 0.9 rad.
+struct RibsUnderAnArc {
+  std::vector<Eigen::Vector2d> path_m;
+  std::vector<double> heights_m;
+};
+
+RibsUnderAnArc ribs_under_an_arc(double turned_rad, double pitch_m, std::uint64_t seed) {
+  constexpr std::size_t kPoints = 3200;
+  constexpr double kRadius_m = 80e-3 / 0.9;
+  RibsUnderAnArc out;
+  out.heights_m.assign(kPoints, 0.0);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double angle = kSpacing_m * static_cast<double>(i) / kRadius_m - 0.45;
+    out.path_m.emplace_back(kRadius_m * std::sin(angle), kRadius_m * std::cos(angle));
+  }
+  Random random(seed, 3);
+  const Eigen::Vector2d normal(std::cos(turned_rad), std::sin(turned_rad));
+  for (double at_m = -0.1; at_m < 0.15; at_m += pitch_m) {
+    const double height_m = 100e-6 * (1.0 + 0.05 * random.normal()), place_m = at_m + 5e-6 * random.normal();
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const double x = (normal.dot(out.path_m[i]) - place_m) / (0.15 * pitch_m);
+      if (std::abs(x) < 8.0) out.heights_m[i] += height_m * std::exp(-0.5 * x * x);
+    }
+  }
+  return out;
+}
+
+// The oracle is RSm along the path of the heights without their noise, element by element.
+TEST(PatternElementWidth, OfRibsUnderABentPathIsTheMeanAlongThePath) {
+  constexpr double kNoise_m = 12e-6, kPitch_m = 1.6e-3;
+  int determined = 0, held = 0, scans = 0;
+  for (const double turned_rad : {0.0, 0.2, -0.3}) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed, ++scans) {
+      RibsUnderAnArc ribs = ribs_under_an_arc(turned_rad, kPitch_m, seed);
+      const double true_m = measure_roughness(ribs.heights_m, kSpacing_m).RSm_m;
+      Random random(seed, 4);
+      for (double& h : ribs.heights_m) h += kNoise_m * random.normal();
+      TextureNoise noise = noise_of(kNoise_m);
+      noise.frequency_cycles_per_mm = {0.0, 20.0};
+      noise.added_psd_m2_mm = {kNoise_m * kNoise_m / 20.0, kNoise_m * kNoise_m / 20.0};
+      noise.misplaced_psd_m2_mm = {0.0, 0.0};
+      noise.added_rms_m = kNoise_m;
+      noise.added_rms_stderr_m = noise.noise_rms_stderr_m;
+      const Periodicity pattern = find_periodicity_under_noise(ribs.heights_m, kSpacing_m, noise, {}, ribs.path_m);
+      const ElementWidth width =
+          pattern_element_width(ribs.heights_m, kSpacing_m, pattern, noise, RoughnessConfig{}, ribs.path_m);
+      if (!std::isfinite(width.mean_m)) continue;
+      ++determined;
+      held += std::abs(width.mean_m - true_m) < 1.96 * width.stderr_m ? 1 : 0;
+      EXPECT_LT(width.stderr_m, 0.04 * width.mean_m);  // one element of some 50, and the pitch's error
+    }
+  }
+  EXPECT_GE(determined, (scans * 3) / 4);
+  EXPECT_GE(held, (determined * 9) / 10);
 }
 
 TEST(PatternElementWidth, NothingHasNone) {

@@ -60,6 +60,26 @@ TEST(PeriodicityUnderNoise, FindsNoPitchInNoise) {
   }
 }
 
+// Two waves of one height, 2 and 1 mm long. The noise falls with the frequency: at the first it has more than ten times
+// the density of that at the second, so the second stands out further. Its length is half the pitch.
+TEST(PeriodicityUnderNoise, OfTwoEqualWavesTheLongerOneIsThePitch) {
+  const TextureNoise noise = make_noise(60e-6);
+  int right = 0, half = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::vector<double> heights_m = disturbed(10e-6, 2e-3, noise, seed);
+    for (std::size_t i = 0; i < kPoints; ++i)
+      heights_m[i] += 10e-6 * std::cos(2.0 * std::numbers::pi * kSpacing_m * static_cast<double>(i) / 1e-3);
+    const Periodicity p = find_periodicity_under_noise(heights_m, kSpacing_m, noise, {});
+    if (!p.periodic) continue;
+    right += std::abs(p.pitch_m - 2e-3) < 0.02e-3 ? 1 : 0;
+    half += std::abs(p.pitch_m - 1e-3) < 0.01e-3 ? 1 : 0;
+  }
+  RecordProperty("right", right);
+  RecordProperty("half", half);
+  EXPECT_GE(right, 30);
+  EXPECT_LE(half, 4);
+}
+
 // A hand's tremor at 25 mm/s: waves of 8 to 12 Hz, five times as high as the pattern, that are no noise.
 std::vector<double> with_tremor(double amplitude_m, double pitch_m, const TextureNoise& noise, std::uint64_t seed) {
   std::vector<double> out = disturbed(amplitude_m, pitch_m, noise, seed);

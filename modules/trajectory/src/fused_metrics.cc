@@ -141,7 +141,10 @@ void append_learnt(const InertialStream& inertial, const Problem& problem, const
   metrics["tracker_axes_chi2"] = agreement.axes_chi2;
   metrics["latency_beyond_prior_s"] = agreement.latency_s;
   metrics["latency_beyond_prior_sigma_s"] = agreement.latency_sigma_s;
+  metrics["latency_change_s"] = agreement.latency_change_s;
+  metrics["latency_change_sigma_s"] = agreement.latency_change_sigma_s;
   metrics["accel_axes_chi2"] = agreement.accel_axes_chi2;
+  metrics["gyro_axes_chi2"] = agreement.gyro_axes_chi2;
   metrics["other_axes_log_ratio"] = agreement.other_axes_log_ratio;
   metrics["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
   metrics["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);

@@ -92,9 +92,13 @@ struct StreamAgreement {
   // The tracker is later than the prior says, s; the prior's error is in the sigma.
   double latency_s = kUnknown;
   double latency_sigma_s = kUnknown;
+  // By how much it becomes later from the first pose to the last, by a straight line, s.
+  double latency_change_s = kUnknown;
+  double latency_change_sigma_s = kUnknown;
   // The specific force is (1 + E) times the calibrated one: the normalised square of E likewise, with the prior's error
   // in its covariance; 9 degrees of freedom.
   double accel_axes_chi2 = kUnknown;
+  double gyro_axes_chi2 = kUnknown;  // the same of the angular rate
   // Where axes_chi2 knows an element of M to worse than 15 %: the log-likelihood that the best other convention of the
   // tracker's axes gains (axes_hypotheses.h).
   double other_axes_log_ratio = kUnknown;

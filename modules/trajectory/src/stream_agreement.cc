@@ -12,9 +12,10 @@ namespace asperity::inertial_smoother {
 
 namespace {
 
-// The effects: the tracker's matrix with the smoothed and with the predicted positions, the latency, the
-// accelerometer's matrix.
-constexpr int kSmoothedMatrix = 0, kPredictedMatrix = 9, kLatency = 18, kAccel = 19, kEffects = 28;
+// The effects: the tracker's matrix with the smoothed and with the predicted positions, the latency and its change from
+// the first pose to the last, the accelerometer's and the gyroscope's matrix.
+constexpr int kSmoothedMatrix = 0, kPredictedMatrix = 9, kLatency = 18, kLatencyChange = 19, kAccel = 20, kGyro = 29,
+              kEffects = 38;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
@@ -51,9 +52,12 @@ NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& r
   NormalEquations out;
   Vector3d middle_m = Vector3d::Zero();
   for (const Pose& pose : problem.poses) middle_m += pose.translation_m / static_cast<double>(problem.poses.size());
+  const double first_s = problem.knots[problem.epochs.front().knot].t;
+  const double duration_s = problem.knots[problem.epochs.back().knot].t - first_s;
   // What one unit of each effect leaves in the filter's error state.
   Square X = Square::Zero(layout.size, kEffects);
   if (layout.accel_matrix >= 0) X.block<9, 9>(layout.accel_matrix, kAccel).setIdentity();
+  if (layout.gyro_matrix >= 0) X.block<9, 9>(layout.gyro_matrix, kGyro).setIdentity();
   for (std::size_t e = 0; e < records.size(); ++e) {
     if (e > 0) {
       if (records[e - 1].transition.empty()) return {};
@@ -73,6 +77,8 @@ NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& r
       D.block<3, 3>(0, kPredictedMatrix + 3 * axis).diagonal().array() += predicted_m[axis];
     }
     D.col(kLatency) -= record.predicted.rate;
+    const double share = (problem.knots[problem.epochs[e].knot].t - first_s) / duration_s - 0.5;
+    D.col(kLatencyChange) -= share * record.predicted.rate;
     if (record.believed) {
       const Rows<6> weighted = record.S_inverse.lazyProduct(D);
       add_transposed_product<6>(1.0, D, weighted, out.information);
@@ -94,6 +100,15 @@ Estimate one_effect(const NormalEquations& equations, int at, const Vector9d& a)
   const double information = a.dot(equations.information.block<9, 9>(at, at) * a);
   if (!(information > 0.0)) return {};
   return {a.dot(equations.score.segment<9>(at)) / information, 1.0 / std::sqrt(information)};
+}
+
+// The second of two effects whose first is free.
+Estimate beside(const NormalEquations& equations, int first, int second) {
+  const double a = equations.information(first, first), b = equations.information(first, second);
+  const double information = equations.information(second, second) - (a > 0.0 ? b * b / a : 0.0);
+  if (!(information > 1e-9 * equations.information(second, second))) return {};
+  const double score = equations.score[second] - (a > 0.0 ? b / a * equations.score[first] : 0.0);
+  return {score / information, 1.0 / std::sqrt(information)};
 }
 
 }  // namespace
@@ -121,8 +136,15 @@ StreamAgreement compare_streams(const Problem& problem, const std::vector<Record
     out.latency_s = equations.score[kLatency] / equations.information(kLatency, kLatency);
     out.latency_sigma_s = 1.0 / std::sqrt(equations.information(kLatency, kLatency));
   }
-  if (problem.layout.accel_matrix < 0) return out;
-  if (const std::optional<Nine> accel = solve_nine(equations, kAccel)) out.accel_axes_chi2 = normalised_square(*accel);
+  const Estimate change = beside(equations, kLatency, kLatencyChange);
+  out.latency_change_s = change.value;
+  out.latency_change_sigma_s = change.sigma;
+  const auto matrix_chi2 = [&](int in_state, int at) {
+    const std::optional<Nine> nine = in_state >= 0 ? solve_nine(equations, at) : std::nullopt;
+    return nine ? normalised_square(*nine) : StreamAgreement::kUnknown;
+  };
+  out.accel_axes_chi2 = matrix_chi2(problem.layout.accel_matrix, kAccel);
+  out.gyro_axes_chi2 = matrix_chi2(problem.layout.gyro_matrix, kGyro);
   return out;
 }
 

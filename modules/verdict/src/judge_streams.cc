@@ -18,6 +18,7 @@ constexpr double kNotByClipping = 2.0;     // factor: more than clipping takes a
 constexpr double kLargestBias_mps2 = 1.5;  // five times the prior of a calibrated accelerometer
 constexpr double kLatency_sigmas = 5.0;
 constexpr double kLatencyAllowed_s = 0.5e-3;   // what a good calibration of the latency leaves
+constexpr double kChangeAllowed_s = 1e-3;      // of the latency over a recording: what two such calibrations leave
 constexpr double kScaleAllowed = 0.005;        // what markers, camera and accelerometer leave of the scale
 constexpr double kScale_sigmas = 3.3;          // one good scan in a thousand
 constexpr double kScaleDoubtful_sigmas = 2.6;  // one in a hundred
@@ -113,6 +114,15 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+// Gyroscope and tracker: axes, signs and unit of the angular rate.
+void judge_rotation(const ScanEvidence& e, Verdicts& out) {
+  if (!(e.gyro_axes_chi2 > kAxes_chi2)) return;
+  out.push_back(make_verdict("rotations_disagree",
+                             fmt::format("tracker and gyroscope show different rotations: χ² = {:.0f} for an error of "
+                                         "the gyroscope's axes and scales, where 9 is expected",
+                                         e.gyro_axes_chi2)));
+}
+
 // A filter or an average has taken the sensor's noise, and the surface's vibrations with it.
 void judge_bandwidth(const ScanEvidence& e, Verdicts& out) {
   const bool whole = std::isfinite(e.accel_rounding_ratio);
@@ -126,6 +136,17 @@ void judge_bandwidth(const ScanEvidence& e, Verdicts& out) {
                              fmt::format("the accelerometer was low-passed, or its stated noise is too large: above "
                                          "{:.3g} Hz it has {:.2g} % of the power of that noise{}",
                                          e.accel_quiet_from_Hz, 100.0 * e.accel_floor_ratio, waves)));
+}
+
+// Two clocks of which one drifts or jumps. Where the latency is wrong as a whole, that is the reason.
+void judge_latency_change(const ScanEvidence& e, Verdicts& out) {
+  if (std::any_of(out.begin(), out.end(), [](const Verdict& v) { return v.code == "latency_off"; })) return;
+  const double sigmas = std::abs(e.latency_change_s) / std::hypot(e.latency_change_sigma_s, kChangeAllowed_s);
+  if (!(sigmas > kLatency_sigmas)) return;
+  out.push_back(make_verdict(
+      "clocks_drift", fmt::format("from the first pose to the last, the tracker's clock departs from the probe's by "
+                                  "{:.2g} ± {:.2g} ms, {:.0f} standard deviations",
+                                  1e3 * e.latency_change_s, 1e3 * e.latency_change_sigma_s, sigmas)));
 }
 
 }  // namespace
@@ -147,10 +168,12 @@ void judge_calibration(const ScanEvidence& e, Verdicts& out) {
                                    "standard deviations",
                                    1e3 * e.latency_beyond_prior_s, 1e3 * e.latency_beyond_prior_sigma_s, late_sigmas)));
   }
+  judge_latency_change(e, out);
   judge_bandwidth(e, out);
   // A clipped accelerometer shows another motion than the tracker: not named twice.
   const bool clipped = std::any_of(out.begin(), out.end(), [](const Verdict& v) { return v.code == "clipped"; });
   if (!clipped) judge_agreement(e, out);
+  judge_rotation(e, out);
 }
 
 void judge_streams(const ScanEvidence& e, Verdicts& out) {

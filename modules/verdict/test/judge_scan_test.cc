@@ -25,6 +25,9 @@ ScanEvidence good() {
   e.tracker_scale_error_sigma = 0.02;
   e.tracker_axes_chi2 = 9.0;
   e.accel_axes_chi2 = 9.0;
+  e.gyro_axes_chi2 = 9.0;
+  e.latency_change_s = 3e-3;
+  e.latency_change_sigma_s = 2e-3;
   e.accel_motion_share = 0.01;
   e.tip_radius_m = 0.32e-3;
   e.tracker_noise_ratio = 1.1;
@@ -86,6 +89,9 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"scale_doubtful", "1.060 ± 0.020 times", [](ScanEvidence& e) { e.tracker_scale_error = 0.06; }},
       {"motions_disagree", "χ² = 120", [](ScanEvidence& e) { e.tracker_axes_chi2 = 120.0; }},
       {"motions_disagree", "χ² = 50", [](ScanEvidence& e) { e.accel_axes_chi2 = 50.0; }},
+      {"rotations_disagree", "χ² = 400", [](ScanEvidence& e) { e.gyro_axes_chi2 = 400.0; }},
+      {"clocks_drift", "departs from the probe's by -80 ± 2 ms, 36 standard",
+       [](ScanEvidence& e) { e.latency_change_s = -80e-3; }},
       {"axes_unseen", "better (e^19 : 1)", [](ScanEvidence& e) { e.other_axes_log_ratio = 19.0; }},
       {"axes_unseen", "nearly as well", [](ScanEvidence& e) { e.other_axes_log_ratio = -3.0; }},
       {"motions_disagree", "97 %", [](ScanEvidence& e) { e.accel_motion_share = 0.97; }},

@@ -32,6 +32,9 @@ struct Periodicity {
   // Across the ribs and not along the path; nan unless the path's bend was needed to find them (docs/periodicity.md).
   double across_pitch_m = std::numeric_limits<double>::quiet_NaN();
   double across_pitch_stderr_m = std::numeric_limits<double>::quiet_NaN();
+  // Straight ribs repeat in x + t y of the unrolled path, y to the left of its chord x: t. nan as above, and of
+  // lattices.
+  double rib_tangent = std::numeric_limits<double>::quiet_NaN();
 };
 
 // The dominant spatial period of a uniform profile (m, nan in gaps) and the depth of its pattern. The period is

@@ -29,8 +29,9 @@ double gap_noise_m2ps3(std::span<const double> t_s, std::span<const double> acce
 // density `tracker_psd_m2ps` can have had: its error A R/(A + R (2πf)⁴) cannot exceed the density that the position has
 // itself, in any octave from 1.6 to 50 Hz. That density is known from few ordinates (χ², each octave's upper limit is
 // wrong in 1 % of cases). Where (2πf)⁴ R is small compared with A the error is R, whatever A is: such octaves bound
-// nothing. `tracker_psd_m2ps` must therefore be no larger than it may be. `position_m` may be a height or what is travelled less its line. Infinite
-// where the position is nowhere quieter than the tracker, or shorter than two stretches of 1.3 s.
+// nothing. `tracker_psd_m2ps` must therefore be no larger than it may be. `position_m` may be a height or what is
+// travelled less its line. Infinite where the position is nowhere quieter than the tracker, or shorter than two
+// stretches of 1.3 s.
 double largest_acceleration_noise_m2ps3(std::span<const double> t_s, std::span<const double> position_m,
                                         std::span<const char> usable, double tracker_psd_m2ps);
 

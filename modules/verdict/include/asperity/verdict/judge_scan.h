@@ -29,10 +29,13 @@ struct ScanEvidence {
   double latency_s = kUnknown;
   double latency_beyond_prior_s = kUnknown;  // by which the tracker is later than calibrated, from the data alone
   double latency_beyond_prior_sigma_s = kUnknown;
+  double latency_change_s = kUnknown;  // by which the tracker becomes later from the first pose to the last
+  double latency_change_sigma_s = kUnknown;
   double tracker_scale_error = kUnknown;  // of the tracker's positions against the inertial sensors
   double tracker_scale_error_sigma = kUnknown;
   double tracker_axes_chi2 = kUnknown;     // of a 3×3 error of its positions, 9 degrees of freedom
   double accel_axes_chi2 = kUnknown;       // likewise of the accelerometer's matrix
+  double gyro_axes_chi2 = kUnknown;        // likewise of the gyroscope's
   double other_axes_log_ratio = kUnknown;  // log-likelihood that another convention of the tracker's axes gains
   double accel_motion_share = kUnknown;    // unexplained acceleration over the specific force's motion
   double tracker_noise_ratio = kUnknown;   // found over calibrated
