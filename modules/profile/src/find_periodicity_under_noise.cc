@@ -66,9 +66,7 @@ Periodicity find_along(std::span<const double> height_m, double spacing_m, const
                           highest_noise(noise), config.min_pitch_m, longest_m, hypotheses);
   // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
   const auto follow_line = [&](double shortest_m, double most_m) {
-    double line_m = search.find_line_m(shortest_m, most_m);
-    // Of two waves the second may stand out further than the first, of which noise has more.
-    if (search.is_second_of_pair(line_m) && 2.0 * line_m <= most_m) line_m *= 2.0;
+    const double line_m = search.find_line_m(shortest_m, most_m);
     const Periodicity found = line_m > 0.0 ? follow_pattern(quiet_m, spacing_m, line_m, config) : Periodicity{};
     if (!std::isfinite(found.pitch_m)) return false;
     out = found;
@@ -96,6 +94,14 @@ Periodicity find_along(std::span<const double> height_m, double spacing_m, const
     out.periodic = false;
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
     return out;
+  }
+  // Of two waves the second may stand out further than the first, of which the noise has more.
+  if (2.0 * out.pitch_m <= longest_m && search.is_second_of_pair(out.pitch_m)) {
+    const Periodicity whole = follow_pattern(quiet_m, spacing_m, 2.0 * out.pitch_m, config);
+    if (std::isfinite(whole.pitch_m)) {
+      out = whole;
+      out.periodic = out.periods >= kFewestPeriods;
+    }
   }
   out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, noise.along_sigma * out.pitch_m);
   measure_depth_under_noise(height_m, spacing_m, noise, out);

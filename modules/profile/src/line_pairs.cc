@@ -30,7 +30,7 @@ bool LineSearch::may_be_pair(std::size_t bin) const {
          is_rare(first / first_noise + second / second_noise, 2, trials_, hypotheses_.bend_by_range_m * middle_per_m_);
 }
 
-bool LineSearch::is_pair(std::size_t bin) const {
+bool LineSearch::is_pair(std::size_t bin, double least_of_first) const {
   Wave first{static_cast<double>(bin) / static_cast<double>(kPadding), power_[bin]};
   Wave second{2.0 * first.cycles, power_[2 * bin]};
   Rarities a = rarities_of(first), b = rarities_of(second);
@@ -50,9 +50,7 @@ bool LineSearch::is_pair(std::size_t bin) const {
   }
   a = rarities_of(first);
   b = rarities_of(second);
-  for (const double rarity : {a.broad, a.narrow, b.broad, b.narrow}) {
-    if (rarity < kLeastOfPair) return false;
-  }
+  if (std::min(a.broad, a.narrow) < least_of_first || std::min(b.broad, b.narrow) < kLeastOfPair) return false;
   return are_rare({a.broad + b.broad, a.narrow + b.narrow, 0.0}, 2, first);
 }
 
@@ -69,17 +67,17 @@ std::size_t LineSearch::find_pair(std::size_t first, std::size_t last) const {
   });
   bins.resize(std::min(bins.size(), kMostPairs));
   for (const std::size_t bin : bins) {
-    if (is_pair(bin)) return bin;
+    if (is_pair(bin, kLeastOfPair)) return bin;
   }
   return 0;
 }
 
 bool LineSearch::is_second_of_pair(double length_m) const {
-  if (!(length_m > 0.0) || !has_line(2.0 * length_m, 1)) return false;
+  if (!(length_m > 0.0)) return false;
   // The fundamental's bin is that of half the line's frequency, or one of its neighbours.
   const auto middle = static_cast<std::size_t>(std::lround(0.5 * length_m_ / length_m));
   for (std::size_t bin = middle > 1 ? middle - 1 : 1; bin <= middle + 1; ++bin) {
-    if (may_be_pair(bin) && is_pair(bin)) return true;
+    if (may_be_pair(bin) && is_pair(bin, -std::log(kByChance))) return true;
   }
   return false;
 }

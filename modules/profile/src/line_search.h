@@ -47,7 +47,8 @@ class LineSearch {
   // Of a pattern that is there: whether this harmonic stands out of the noise and of its neighbours, at 1 % for itself.
   bool has_line(double pitch_m, int harmonic) const;
 
-  // Whether a line of this length is the second of a pair, whose first wave stands out by itself as well (1 %).
+  // Whether a line of this length is the second of a pair, whose first wave a random surface has there, or the noise,
+  // with a probability of 1 % at most.
   bool is_second_of_pair(double length_m) const;
 
   // How many waves down to the shortest pass what is asked of an ordinate by itself. Only these are compared with their
@@ -81,7 +82,7 @@ class LineSearch {
   bool is_line(std::size_t bin) const;
   double power_of_pair(std::size_t bin) const { return power_[bin] + power_[2 * bin]; }
   bool may_be_pair(std::size_t bin) const;
-  bool is_pair(std::size_t bin) const;
+  bool is_pair(std::size_t bin, double least_of_first) const;
   std::size_t find_pair(std::size_t first, std::size_t last) const;
   bool is_local_line(std::size_t bin, double near_trials) const;
   double power_at(std::span<const double> heights_m, double cycles) const;
