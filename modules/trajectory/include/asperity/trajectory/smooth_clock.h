@@ -24,9 +24,9 @@ struct SmoothClockResult {
 // Removes the jitter of time stamps given on arrival to samples that a device took at a regular rate.
 // The period is the one at which the stamps keep their phase; the count of periods between two samples (lost ones
 // included) is the one nearest to all stamps (sample_clock.h). Each new stamp is the value of the least-squares line of
-// stamp over count in a window around it. `t_ns` rises strictly. Stamps with an RMS of 0.26 periods and more are taken as batches if 60 % of the steps are one period: each
-// sample is then one period after the one before, unless what follows a gap stays late (samples were lost). Others have
-// no regular clock behind them and are kept as they are.
+// stamp over count in a window around it. `t_ns` rises strictly. Stamps with an RMS of 0.26 periods and more are taken
+// as batches if 60 % of the steps are one period: each sample is then one period after the one before, unless what
+// follows a gap stays late (samples were lost). Others have no regular clock behind them and are kept as they are.
 SmoothClockResult smooth_clock(const std::vector<std::int64_t>& t_ns, const SmoothClockConfig& config);
 
 }  // namespace asperity
