@@ -35,7 +35,7 @@ const Document& fresh_document() {
     Calls calls;
     Jobs jobs{hub, [](std::function<void()>) {}};
     Shared shared{hub, project, document, jobs, lease, false, [](std::function<void()>) {}};
-    std::vector<std::unique_ptr<Page>> pages = make_pages(shared, std::nullopt);
+    std::vector<std::unique_ptr<Page>> pages = make_pages(shared, std::nullopt, {});  // no list of recent projects
     Pages() {
       for (const auto& page : pages) page->bind(document, calls);
     }
