@@ -53,7 +53,7 @@ constexpr std::array kExamples{
     Example{"texture compare", "asperity texture compare wood.texture.json out/profile.csv"},
     Example{"study plan", "asperity study plan --share 0.7"},
     Example{"study summarize", "asperity study summarize wood_AB12.study.csv"},
-    Example{"study table", "asperity study table wood_*.study.csv -o wood.csv"},
+    Example{"study table", "asperity study table wood_p01.study.csv wood_p02.study.csv -o wood.csv"},
     Example{"markers sheet", "asperity markers sheet -o tags.pdf"},
     Example{"markers ring", "asperity markers ring -o ring.pdf"},
     Example{"markers board", "asperity markers board -o board.pdf"},

@@ -100,13 +100,21 @@ ParsedLine Parser::parse(int argc, char** argv) {
     const bool is_left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
                               dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     if (left.empty() || !is_left_over) return {ParsedLine::Kind::kFault, printable(error.what(), 300), chosen()};
-    return {ParsedLine::Kind::kFault, chosen_parser().unknown_word(left.front()), chosen()};
+    const Parser& parser = with_left_over();
+    return {ParsedLine::Kind::kFault, parser.unknown_word(left.front()), &parser == this ? "" : parser.full_name()};
   }
 }
 
 const Parser& Parser::chosen_parser() const {
   for (const auto& below : subcommands_)
     if (below->is_parsed()) return below->chosen_parser();
+  return *this;
+}
+
+const Parser& Parser::with_left_over() const {
+  if (!app_->remaining(false).empty()) return *this;
+  for (const auto& below : subcommands_)
+    if (below->is_parsed()) return below->with_left_over();
   return *this;
 }
 

@@ -108,7 +108,8 @@ class Parser {
  private:
   Parser(CLI::App& app, const Parser* parent);
   Option* keep(CLI::Option* option);
-  const Parser& chosen_parser() const;  // the command that is on the command line, or the program
+  const Parser& chosen_parser() const;   // the command that is on the command line, or the program
+  const Parser& with_left_over() const;  // the first on the line that was given a word too many
 
   std::unique_ptr<CLI::App> owned_;
   CLI::App* app_;

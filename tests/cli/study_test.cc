@@ -168,7 +168,8 @@ TEST_F(StudySummarize, RefusesWhatIsNoLog) {
   };
   refuses("", "is empty");
   refuses("t_s,px_m\n1,2\n", "is not a log of a study");
-  refuses("# asperity.study_log 2 {}\n", "is not a log of a study of version 1");
+  refuses("# asperity.study_log 3 {}\n", "is not a log of a study of version 1 or 2");
+  refuses("# asperity.study_log 2 {}\n", "study, participant and run are needed");
   refuses(log.substr(0, log.find('\n') + 1), "is cut off before its columns end");
   std::string other = log;
   other.replace(other.find("\"seed\":1"), 8, "\"seed\":2");

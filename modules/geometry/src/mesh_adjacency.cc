@@ -41,6 +41,37 @@ void list_triangles_of_vertices(const TriangleMesh& mesh, MeshAdjacency& out) {
   each_corner([&](std::uint32_t v, std::uint32_t t) { out.vertex_triangles[next[v]++] = t; });
 }
 
+struct HalfEdge {
+  std::uint32_t low, high;  // its vertices
+  std::uint32_t place;      // 3 triangle + e
+};
+
+// All half-edges by their lower vertex, then the higher one, then their place. A mesh's vertices have few each: counted
+// into place by the lower one, only these few are compared.
+std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
+  const auto each_edge = [&mesh](auto&& visit) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!has_three_corners(mesh.triangles[t])) continue;
+      for (std::uint32_t e = 0; e < 3; ++e) {
+        const auto [low, high] = std::minmax(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]);
+        visit(HalfEdge{low, high, 3 * t + e});
+      }
+    }
+  };
+  std::vector<std::size_t> first(mesh.vertices_m.size() + 1, 0);
+  each_edge([&first](const HalfEdge& half) { ++first[half.low + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<HalfEdge> out(first.back());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  each_edge([&](const HalfEdge& half) { out[next[half.low]++] = half; });
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
+    std::sort(
+        out.begin() + static_cast<std::ptrdiff_t>(first[v]), out.begin() + static_cast<std::ptrdiff_t>(first[v + 1]),
+        [](const HalfEdge& a, const HalfEdge& b) { return a.high != b.high ? a.high < b.high : a.place < b.place; });
+  }
+  return out;
+}
+
 }  // namespace
 
 MeshAdjacency make_adjacency(const TriangleMesh& mesh) {
@@ -48,32 +79,16 @@ MeshAdjacency make_adjacency(const TriangleMesh& mesh) {
   MeshAdjacency out;
   list_triangles_of_vertices(mesh, out);
 
-  struct HalfEdge {
-    std::uint64_t ends;   // the lower vertex in the upper half
-    std::uint32_t place;  // 3 triangle + e
-  };
-  std::vector<HalfEdge> halves;
-  halves.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!has_three_corners(mesh.triangles[t])) continue;
-    for (std::uint32_t e = 0; e < 3; ++e) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]);
-      halves.push_back({std::uint64_t{low} << 32 | high, 3 * t + e});
-    }
-  }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.place < b.place;
-  });
-
+  const std::vector<HalfEdge> halves = sorted_half_edges(mesh);
   constexpr std::uint32_t kNone = MeshAdjacency::kNone;
   out.edge_of_triangle.assign(mesh.triangles.size(), {kNone, kNone, kNone});
   out.edge_triangles.reserve(halves.size());
   for (std::size_t i = 0; i < halves.size(); ++i) {
-    const auto [ends, place] = halves[i];
+    const auto [low, high, place] = halves[i];
     const std::uint32_t triangle = place / 3;
-    if (i == 0 || ends != halves[i - 1].ends) {
+    if (i == 0 || low != halves[i - 1].low || high != halves[i - 1].high) {
       out.edge_first.push_back(static_cast<std::uint32_t>(out.edge_triangles.size()));
-      out.edge_vertices.push_back({static_cast<std::uint32_t>(ends >> 32), static_cast<std::uint32_t>(ends)});
+      out.edge_vertices.push_back({low, high});
     }
     out.edge_triangles.push_back(triangle);
     out.edge_of_triangle[triangle][place % 3] = static_cast<std::uint32_t>(out.edge_vertices.size() - 1);
