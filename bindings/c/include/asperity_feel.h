@@ -202,7 +202,8 @@ typedef struct asperity_rumble asperity_rumble;
 ASPERITY_FEEL_API asperity_status asperity_rumble_create(double force_rate_Hz, double full_scale_N,
                                                          asperity_rumble **rumble);
 ASPERITY_FEEL_API void asperity_rumble_free(asperity_rumble *rumble);
-/* One force (vibration_N of a step). One that is not finite is ignored. Real time: yes. */
+/* One force (vibration_N of a step). One that is not finite is ignored; beyond 1000 N
+ * either way it counts as that. Real time: yes. */
 ASPERITY_FEEL_API void asperity_rumble_add(asperity_rumble *rumble, double force_N);
 /* The levels of both motors since the last call, 0 to 1: sqrt(2) times the RMS of each band over `full_scale_N`; 0 if
  * no force was added. Call it 20 to 100 times a second. Real time: yes. */

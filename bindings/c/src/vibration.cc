@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,8 @@ using asperity::c_library::guarded;
 using asperity::c_library::there;
 
 constexpr double kHighPass_Hz = 20.0, kSplit_Hz = 100.0;  // as open_rumble_sink has them
+
+constexpr double kMost_N = 1000.0;  // no device has more: a tracker's jump must not ring for seconds
 
 double level_of(double share) noexcept { return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0; }
 
@@ -50,6 +54,7 @@ asperity_status asperity_vibration_samples(const double* force_N, size_t count, 
   return guarded([&] {
     std::size_t& out = there(written, "written");
     if (count > 0) there(force_N, "force_N");
+    if (count > PTRDIFF_MAX / sizeof(double)) throw std::length_error("count");
     asperity::VibrationConfig config;
     config.servo_rate_Hz = force_rate_Hz;
     config.audio_rate_Hz = sample_rate_Hz;
@@ -92,9 +97,10 @@ void asperity_rumble_free(asperity_rumble* rumble) { delete rumble; }
 
 void asperity_rumble_add(asperity_rumble* rumble, double force_N) {
   if (rumble == nullptr || !std::isfinite(force_N)) return;
-  if (!rumble->running) rumble->bands.start_at(force_N);
+  const double bounded_N = std::clamp(force_N, -kMost_N, kMost_N);
+  if (!rumble->running) rumble->bands.start_at(bounded_N);
   rumble->running = true;
-  rumble->bands.add(force_N);
+  rumble->bands.add(bounded_N);
 }
 
 void asperity_rumble_take(asperity_rumble* rumble, double* slow, double* fast) {

@@ -106,6 +106,9 @@ TEST(CLibraryVibration, SamplesAreOfTheSoundAndRumbleIsTheLevel) {
   EXPECT_NEAR(highest, 0.2F, 0.01F);  // 100 Hz passes whole
   EXPECT_EQ(asperity_vibration_samples(force_N.data(), force_N.size(), 1.0, 48000.0, 1.0, 1.0, nullptr, 0, &count),
             ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(asperity_vibration_samples(force_N.data(), static_cast<std::size_t>(-1), 1000.0, 48000.0, 1.0, 1.0, nullptr,
+                                       0, &count),
+            ASPERITY_BAD_ARGUMENT);
   EXPECT_NEAR(asperity_vibration_rumble(force_N.data(), force_N.size(), 1.0), 0.2 / std::sqrt(2.0), 1e-3);
   for (std::size_t i = 0; i < force_N.size(); ++i) force_N[i] += 3.0 + 1e-3 * static_cast<double>(i);
   EXPECT_NEAR(asperity_vibration_rumble(force_N.data(), force_N.size(), 1.0), 0.2 / std::sqrt(2.0), 1e-3)
@@ -161,6 +164,23 @@ TEST(CLibraryRumble, NeverLeavesItsRangeAndStopsWithoutForces) {
     if (i > 0) {
       EXPECT_EQ(levels.slow + levels.fast, 0.0);
     }
+  }
+}
+
+// A tracker's jump: one huge force, then the hand rests again.
+TEST(CLibraryRumble, AHugeForceIsOverWithinATenthOfASecond) {
+  for (const double huge_N : {1e9, 1e300, -1.7e308}) {
+    Rumble rumble(1.0);
+    rumble.add(std::vector<double>(500, 1.0));
+    rumble.add({huge_N});
+    rumble.add(std::vector<double>(150, 1.0));
+    rumble.take();
+    rumble.add(std::vector<double>(100, 1.0));
+    const Levels levels = rumble.take();
+    EXPECT_LT(levels.slow, 0.05) << huge_N;
+    EXPECT_LT(levels.fast, 0.05) << huge_N;
+    rumble.add(forces(1.0, 0.5, 40.0, 500));
+    EXPECT_GT(rumble.take().slow, 0.3) << "it goes on to vibrate";
   }
 }
 

@@ -24,8 +24,10 @@ void raise_error(const std::string& text) {
 }
 
 std::string unit_hint(const UnlikelyMetres& error) {
-  if (error.size_m() < 1.0) return ": unit_m=LENGTH, or unit_m=1 if that is right";
-  return fmt::format(": unit_m=1e-3 makes it {:.3g} mm, unit_m=1 if a metre is right", error.size_m());
+  if (error.size_m() < 1.0) return ": state the mesh's unit in metres (unit_m, or mesh_unit_m), 1 if that is right";
+  return fmt::format(
+      ": state the mesh's unit in metres (unit_m, or mesh_unit_m): 1e-3 makes it {:.3g} mm, 1 if a metre is right",
+      error.size_m());
 }
 
 void translate(std::exception_ptr thrown) {

@@ -15,6 +15,14 @@ bool is_plain_array(py::handle given) {
   return Py_TYPE(given.ptr()) == reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_);
 }
 
+// Throws TypeError for complex numbers, texts, objects and truth values.
+void require_numbers(const py::array& array, const char* name) {
+  const char kind = array.dtype().kind();
+  if (kind == 'f' || kind == 'i' || kind == 'u') return;
+  throw py::type_error(std::string(name) + ": real numbers are wanted, not values of the type " +
+                       std::string(py::str(array.dtype())));
+}
+
 // A masked array as a plain one; anything else as it is.
 py::object without_mask(py::handle given, const char* name, Masked masked) {
   if (is_plain_array(given) || !py::isinstance<py::array>(given)) return py::reinterpret_borrow<py::object>(given);
@@ -23,6 +31,7 @@ py::object without_mask(py::handle given, const char* name, Masked masked) {
   if (!ma.attr("is_masked")(given).cast<bool>()) return ma.attr("getdata")(given);
   if (masked == Masked::kRefused)
     throw py::value_error(std::string(name) + ": masked values are refused; leave them out");
+  require_numbers(py::reinterpret_borrow<py::array>(given), name);
   const py::object filled = given.attr("astype")("f8").attr("filled")(std::nan(""));
   return filled;
 }
@@ -43,11 +52,7 @@ py::array_t<double> doubles_of(py::handle given, const char* name, Masked masked
   using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
   if (is_plain_array(given) && Doubles::check_(given)) return py::reinterpret_borrow<Doubles>(given);
   const py::array array = array_of(given, name, masked);
-  const char kind = array.dtype().kind();
-  if (kind != 'f' && kind != 'i' && kind != 'u') {
-    throw py::type_error(std::string(name) + ": real numbers are wanted, not values of the type " +
-                         std::string(py::str(array.dtype())));
-  }
+  require_numbers(array, name);
   return Doubles(array);
 }
 

@@ -10,6 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include "asperity/base/progress.h"
+#include "python_lock.h"
 
 namespace asperity::python {
 
@@ -23,17 +24,18 @@ auto interruptible(const Work& work) {
   std::atomic<bool> interrupted = false;
   const std::thread::id caller = std::this_thread::get_id();
   Clock::time_point next = Clock::now() + kBetween;
+  LockFreed* free = nullptr;
   Observer observer;
   observer.cancelled = [&] {
     // Threads of the work's own only follow: signals are the calling thread's.
     if (interrupted || std::this_thread::get_id() != caller || Clock::now() < next) return interrupted.load();
     next = Clock::now() + kBetween;
-    const py::gil_scoped_acquire lock;
-    interrupted = PyErr_CheckSignals() != 0;
+    free->with_lock([&] { interrupted = PyErr_CheckSignals() != 0; });
     return interrupted.load();
   };
   const auto unlocked = [&] {
-    const py::gil_scoped_release release;
+    LockFreed lock;
+    free = &lock;
     return work(observer);
   };
   try {

@@ -47,7 +47,7 @@ std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, cons
 }
 
 void write(const Result& of, const std::filesystem::path& folder) {
-  const py::gil_scoped_release unlocked;
+  const LockFreed unlocked;
   OutputFolder out(folder, naming_added(is_result_folder));
   if (of.merged) {
     write_merge(out.path(), of.result, *of.merged, of.name);

@@ -76,7 +76,7 @@ std::vector<std::string> names_of(const Registration& of) {
 }
 
 void write(const Registration& of, const std::filesystem::path& folder) {
-  const py::gil_scoped_release unlocked;
+  const LockFreed unlocked;
   OutputFolder out(folder, naming_added(is_registration_folder));
   write_registration(out.path(), of.result, of.input.scans, of.input.onto);
   out.commit();

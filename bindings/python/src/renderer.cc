@@ -20,19 +20,19 @@ std::unique_ptr<const RenderModel> model_of(const std::shared_ptr<const Scene>& 
   });
 }
 
-// The renderer's tip is one thread's for as long as this lives.
+// The renderer's tip, or its scene and settings, are one thread's for as long as this lives.
 class OneAtATime {
  public:
-  explicit OneAtATime(std::atomic<bool>& steps) : steps_(steps) {
-    if (steps_.exchange(true))
-      throw std::runtime_error("the renderer steps already, in another thread or below a signal");
+  OneAtATime(std::atomic<bool>& busy, const char* what) : busy_(busy) {
+    if (busy_.exchange(true))
+      throw std::runtime_error(std::string("the renderer ") + what + " already, in another thread or below a signal");
   }
   OneAtATime(const OneAtATime&) = delete;
   OneAtATime& operator=(const OneAtATime&) = delete;
-  ~OneAtATime() { steps_ = false; }
+  ~OneAtATime() { busy_ = false; }
 
  private:
-  std::atomic<bool>& steps_;
+  std::atomic<bool>& busy_;
 };
 
 // The arrays of many steps, one row a step.
@@ -143,7 +143,7 @@ auto Renderer::advance(const Eigen::Vector3d& p_m, const Eigen::Vector3d* v_mps,
   } else if (tip_.last_m && dt_s > 0.0) {
     device.v_world_mps = (p_m - *tip_.last_m) / dt_s;
   }
-  tip_.last_m = p_m;
+  tip_.last_m = p_m.allFinite() ? std::optional(p_m) : std::nullopt;
   constexpr double kLongest_s = 1.0;  // between two steps, for the vibration
   tip_.t_ns += static_cast<std::int64_t>(1e9 * std::min(dt_s, kLongest_s));
   const ServoOutput out = render_step(*model_->acquire(), tip_.state, device);
@@ -155,7 +155,7 @@ Touch Renderer::step(py::handle position_m, const std::optional<py::object>& vel
   const double interval = interval_s(dt_s);
   std::optional<Eigen::Vector3d> v_mps;
   if (velocity_mps) v_mps = vector_of(*velocity_mps, "velocity_mps");
-  const OneAtATime alone(steps_);
+  const OneAtATime alone(steps_, "steps");
   return advance(p_m, v_mps ? &*v_mps : nullptr, interval, [](const ServoOutput& output, double vibration_N) {
     return Touch{output, vibration_N};
   });
@@ -171,7 +171,7 @@ py::dict Renderer::steps(py::handle positions_m, const std::optional<py::object>
     if (v->size() != p.size()) throw py::value_error("velocities_mps: as many as positions_m are wanted");
   }
   TouchArrays out(p.size());
-  const OneAtATime alone(steps_);
+  const OneAtATime alone(steps_, "steps");
   // A tip is large; a single block is not broken off.
   const auto before = p.size() > kBlock ? std::make_unique<Tip>(tip_) : nullptr;
   try {
@@ -190,6 +190,7 @@ py::dict Renderer::steps(py::handle positions_m, const std::optional<py::object>
 }
 
 void Renderer::update(const std::optional<SharedScene>& scene, const py::dict& settings) {
+  const OneAtATime alone(updates_, "is updated");
   RenderConfig config = config_;
   set_all(config, settings);
   const std::shared_ptr<const Scene> of = scene ? scene->of : scene_;
@@ -200,7 +201,7 @@ void Renderer::update(const std::optional<SharedScene>& scene, const py::dict& s
 }
 
 void Renderer::reset() {
-  const OneAtATime alone(steps_);
+  const OneAtATime alone(steps_, "steps");
   tip_ = Tip{};
 }
 

@@ -58,7 +58,7 @@ class Renderer {
   RenderConfig config_;
   std::unique_ptr<SnapshotExchange<const RenderModel>> model_;
   Tip tip_;
-  std::atomic<bool> steps_ = false;
+  std::atomic<bool> steps_ = false, updates_ = false;
 };
 
 }  // namespace asperity::python

@@ -92,7 +92,9 @@ void add_rendering(py::module_& module) {
            "is where it was before the call.")
       .def("update", &Renderer::update, py::arg("scene") = py::none(), py::arg("settings") = py::dict(),
            "Another scene, or other settings (those not named stay), from the next step on, also while another thread "
-           "steps. The force does not jump. What is refused changes nothing.")
+           "steps. Materials and textures change over texture.cross_fade_s. Meshes, poses and the tip's radius act at "
+           "once: the force may jump where the tip is in contact. Two threads that update at once: the second gets "
+           "RuntimeError. What is refused changes nothing.")
       .def_property_readonly("rate_Hz", &Renderer::rate_Hz, "Steps a second that it was made for, Hz.")
       .def("reset", &Renderer::reset, "The tip was lifted and set elsewhere: nothing is remembered.")
       .def("__repr__", [](const Renderer& renderer) {

@@ -124,7 +124,7 @@ def test_a_unit_is_stated_or_plausible(tmp_path):
         with pytest.raises(ValueError, match="unit_m"):
             asperity.read_scene(plate, unit)
     for read in (asperity.read_mesh, asperity.read_scene):
-        with pytest.raises(asperity.Error, match=r"59\.4 m large.*unit_m=1e-3 makes it 59\.4 mm") as error:
+        with pytest.raises(asperity.Error, match=r"59\.4 m large.*1e-3 makes it 59\.4 mm") as error:
             read(plate)
         assert "--" not in str(error.value)
         assert len(read(plate, unit_m=1.0)) > 0
@@ -185,3 +185,48 @@ def test_settings_are_listed():
     assert asperity.settings("render")["stiffness_N_per_m"]["default"] == 1000.0
     with pytest.raises(ValueError, match="render"):
         asperity.settings("cheese")
+
+
+@pytest.mark.parametrize("made", [c for c in CLASSES if c is not asperity.Error], ids=lambda c: c.__name__)
+def test_no_protocol_of_pickle_ends_the_process(made):
+    """In a process of its own: pybind11's base class cannot be made, and ends it."""
+    code = f"""
+import copy, pickle, asperity
+thing = asperity.{made.__name__}.__new__(asperity.{made.__name__})
+for take in [copy.copy, copy.deepcopy, *[lambda x, p=p: pickle.dumps(x, p) for p in range(6)], lambda x: x.__reduce__()]:
+    try:
+        take(thing)
+        raise SystemExit("it was taken")
+    except TypeError:
+        pass
+"""
+    assert subprocess.run([sys.executable, "-c", code], env=os.environ, check=False).returncode == 0
+
+
+def test_masked_values_that_are_no_numbers_are_refused():
+    mask = [True] + 99 * [False]
+    for values in (np.full(100, 1 + 2j), np.full(100, "1.5"), np.full(100, True), np.full(100, 1, dtype=object)):
+        with pytest.raises(TypeError, match="real numbers are wanted"):
+            asperity.roughness(np.ma.array(values, mask=mask), 1e-5)
+
+
+CALLS_AT_THE_END = {
+    "steps": "asperity.Renderer(asperity.Scene(v, t)).steps(p)",
+    "closest_points": "asperity.Mesh(v, t).closest_points(p)",
+    "many short calls": "[r.steps(p[:1000]) for _ in range(100000)]",
+}
+
+
+@pytest.mark.parametrize("call", CALLS_AT_THE_END)
+def test_a_thread_that_computes_at_the_end_does_not_crash_the_process(call):
+    code = f"""
+import threading, time, numpy as np, asperity
+v, t = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+p = np.full((3_000_000, 3), 0.01)
+r = asperity.Renderer(asperity.Scene(v, t))
+threading.Thread(target=lambda: {CALLS_AT_THE_END[call]}, daemon=True).start()
+time.sleep(0.15)
+"""
+    for _ in range(3):
+        run = subprocess.run([sys.executable, "-c", code], env=os.environ, check=False, timeout=60)
+        assert run.returncode == 0

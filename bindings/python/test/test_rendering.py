@@ -151,3 +151,41 @@ def test_a_scene_is_moved_and_written(tmp_path):
         scene.write(tmp_path / "other" / "plate.scene.json")
     scene.set_texture(2, asperity.fit_texture(1e-6 * np.sin(np.arange(4000) / 3), 25e-6, name="finer"))
     assert scene.texture(2).name == "finer"
+
+
+def test_the_second_of_two_updates_at_once_is_refused_and_none_is_lost():
+    renderer = asperity.Renderer(asperity.Scene(*PLATE), settings={"stiffness_N_per_m": 1000.0})
+    x, y = np.meshgrid(np.linspace(0, 0.06, 300), np.linspace(0, 0.02, 300), indexing="ij")
+    v = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    corner = (np.arange(299)[:, None] * 300 + np.arange(299)).ravel()
+    t = np.vstack([np.column_stack([corner, corner + 300, corner + 301]), np.column_stack([corner, corner + 301, corner + 1])])
+    fine = asperity.Scene(v, t)
+    outcomes = []
+
+    def update(**given):
+        try:
+            renderer.update(**given)
+            outcomes.append("done")
+        except RuntimeError as error:
+            assert "is updated already" in str(error)
+            outcomes.append("refused")
+
+    threads = [threading.Thread(target=update, kwargs=k) for k in ({"scene": fine}, {"settings": {"tip_radius_m": 0.001}})]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert "done" in outcomes
+    if outcomes.count("done") == 2:  # one after the other: both are there
+        touch = renderer.steps(np.tile([0.0301, 0.0101, 0.0005], (50, 1)))
+        assert touch["triangle"][-1] > 2 and touch["force_N"][-1, 2] == pytest.approx(0.5, rel=1e-3)
+
+
+def test_a_position_that_is_no_number_costs_one_step():
+    renderer = asperity.Renderer(asperity.Scene(*PLATE))
+    p = np.tile([0.03, 0.005, -1e-4], (8, 1))
+    p[:4, 2] = [1e-3, 5e-4, 1e-4, -1e-4]
+    p[5] = np.nan
+    force = renderer.steps(p)["force_N"][:, 2]
+    assert force[5] == 0.0
+    assert force[6] == pytest.approx(force[4], rel=0.05)

@@ -27,6 +27,7 @@ namespace Asperity.Feel
         {
             if (handle.IsClosed) throw new ObjectDisposedException("FeelTip");
             int status = Native.asperity_feel_step(handle.Pointer, ref motion, ref touch);
+            GC.KeepAlive(this);
             if (status != 0) throw new ArgumentException("a Motion or Touch that Create() did not make");
         }
 
@@ -38,6 +39,7 @@ namespace Asperity.Feel
             if (touches == null || touches.Length < motions.Length) throw new ArgumentException("fewer touches than motions");
             if (motions.Length == 0) return;
             int status = Native.asperity_feel_steps(handle.Pointer, motions, touches, Native.Count(motions.Length));
+            GC.KeepAlive(this);
             if (status != 0) throw new ArgumentException("a Motion or Touch that Create() did not make");
         }
 
@@ -56,6 +58,7 @@ namespace Asperity.Feel
         {
             if (handle.IsClosed) throw new ObjectDisposedException("FeelTip");
             Native.asperity_feel_reset(handle.Pointer);
+            GC.KeepAlive(this);
         }
 
         public void Dispose() { handle.Dispose(); }

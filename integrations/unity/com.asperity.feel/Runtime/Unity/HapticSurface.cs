@@ -14,8 +14,8 @@ namespace Asperity.Feel.Unity
         [Tooltip("A *.scene.json or a mesh; relative paths begin in StreamingAssets.")]
         public string sceneFile = "";
         public UpAxis up = UpAxis.Z;
-        [Tooltip("Where neither a material map nor a texture states it, N/m.")]
-        [Range(50f, 3000f)] public float stiffness_N_per_m = 500f;
+        [Tooltip("Where neither a material map nor a texture states it, N/m; 0: as the scene's file states it, or 1000.")]
+        [Range(0f, 3000f)] public float stiffness_N_per_m = 0f;
         [Tooltip("Settings of the renderer, a NAME=VALUE each; `asperity feel --help` says where they are listed.")]
         public string[] settings = new string[0];
         [Tooltip("Shows the scene's objects with the material of this GameObject's MeshRenderer.")]
@@ -34,7 +34,7 @@ namespace Asperity.Feel.Unity
             try
             {
                 scene = FeelScene.Read(path);
-                scene.SetStiffness(stiffness_N_per_m);
+                if (stiffness_N_per_m > 0f) scene.SetStiffness(stiffness_N_per_m);
                 if (showMesh) ShowObjects();
             }
             catch (AsperityException e)
