@@ -304,10 +304,9 @@ std::string guess_euler_order(const ImportTables& tables, const MappingConfig& c
   const ImportedMotion motion = read_motion_once(tables, any, observer);
   const std::string best = motion.streams.rate.size() > 0 ? better_euler_order(tables, any, motion, 0.0) : "";
   if (best.empty()) {
-    throw Error(
-        tables.pose->table.file +
-        ": the order of the Euler angles is not stated, and the gyroscope does not decide it: state --euler zyx or "
-        "another, and the unit of the angles where it may not be that of the header");
+    throw Error(tables.pose->table.file +
+                ": the order of the Euler angles is not stated, and the gyroscope does not decide it: state it "
+                "(euler), such as zyx, and the unit of the angles where it may not be that of the header");
   }
   return best;
 }

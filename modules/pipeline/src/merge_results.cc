@@ -159,7 +159,7 @@ MergeStroke read_stroke(const fs::path& folder, const std::string& name) {
   if (removed) {
     wrong(
         "the noise was removed from its heights; merge the recording, or process it with "
-        "--set profile.remove_noise=false");
+        "profile.remove_noise=false");
   }
   const Profile profile = read_profile(folder / "profile.csv");
   const Json& stated = result.at("profile");
