@@ -38,7 +38,8 @@ install(FILES "${packaging}/_asperity" DESTINATION share/zsh/vendor-completions 
 install(FILES "${packaging}/asperity.fish" DESTINATION share/fish/vendor_completions.d COMPONENT program OPTIONAL)
 install(FILES "${packaging}/CHANGELOG.md.gz" DESTINATION share/doc/asperity COMPONENT program OPTIONAL)
 # scripts/package makes it, where mkdocs is installed.
-install(DIRECTORY "${CMAKE_SOURCE_DIR}/build/site/" DESTINATION share/doc/asperity/html COMPONENT program OPTIONAL)
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/build/site/" DESTINATION share/doc/asperity/html COMPONENT program OPTIONAL
+  PATTERN "sitemap.xml*" EXCLUDE)  # it has the date of the build
 install(FILES packaging/asperity.desktop DESTINATION share/applications COMPONENT program)
 install(FILES packaging/70-asperity.rules DESTINATION lib/udev/rules.d COMPONENT program)
 set(components program:asperity feel:libasperity-feel1 dev:libasperity-dev python:python3-asperity)
