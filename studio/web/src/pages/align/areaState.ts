@@ -12,7 +12,7 @@ export interface MadeArea {
 
 export const madeArea = signal<MadeArea | null>(null);
 export const makingArea = signal(false);
-/** Why there is no area yet; "": there is one, or none was requested. */
+/** The reason why no area exists yet; "" if one exists or none was requested. */
 export const areaFault = signal("");
 
 export async function makeArea(area: AreaSection): Promise<void> {

@@ -13,7 +13,7 @@ export interface Merged {
 
 export const merged = signal<Merged | null>(null);
 export const merging = signal(false);
-/** Why there is no merge yet; "": there is one, or none was requested. */
+/** The reason why no merge exists yet; "" if one exists or none was requested. */
 export const mergeFault = signal("");
 
 /** The title of the server's job. */
