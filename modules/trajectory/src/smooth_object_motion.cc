@@ -140,10 +140,10 @@ ObjectMotion smooth_object_motion(const TrackerStream& poses, const Calibration&
   position.first = rotation.first = typical_of_first(poses.T_world_marker);
   const Smoothing moved = smooth_chart(ChartKind::kPosition, position, kFastAccel_m2ps3, config);
   const Smoothing turned = smooth_chart(ChartKind::kRotation, rotation, kFastAngular_rad2ps3, config);
-  constexpr double kLost = 0.5;  // of a pose's weight
+  constexpr double kOutlyingWeight = 0.5;  // of a pose's weight
   for (std::size_t i = 0; i < poses.size(); ++i) {
     out.T_world_object.push_back({turned.path.pose[i].rotation, moved.path.pose[i].translation_m});
-    out.outlying += moved.weight[i] < kLost || turned.weight[i] < kLost ? 1 : 0;
+    out.outlying += moved.weight[i] < kOutlyingWeight || turned.weight[i] < kOutlyingWeight ? 1 : 0;
   }
   out.position = moved.path.knots;
   out.rotation = turned.path.knots;
