@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/simulation/simulate_recording.h"
@@ -83,6 +85,36 @@ TEST(NormalForceScan, OtherForcesOfThreeAxesGiveAnotherProfile) {
     counts = 1.2 * (counts - recording.calibration.force3->C) + recording.calibration.force3->C;
   const ProcessResult after = process_recording(recording, {});
   EXPECT_NEAR(mean_found_N(after) / mean_found_N(before), 1.2, 0.01);
+}
+
+// A force that was larger than the sensor reads shows too small a softness: none is stated, and the heights stay.
+TEST(NormalForceScan, AForceBeyondTheSensorsRangeGivesNoCompliance) {
+  SimulationConfig config = make_simulation_config("sandpaper", "open");
+  config.seed = 4;
+  config.hand.length_m = 0.05;
+  config.hand.force = HandForce::kRamp;
+  config.calibration.imperfection = 0.0;
+  Recording recording = simulate_recording(config);
+  const ProcessResult before = process_recording(recording, {});
+  EXPECT_FALSE(before.force_limit.is_limited());
+  EXPECT_TRUE(std::isfinite(before.compliance.k_c_stderr));
+  const ForceCalibration& force = recording.calibration.force;
+  constexpr double kLimit_N = 1.2;
+  const double limit_counts = std::floor((kLimit_N - force.offset_newton) / force.newton_per_count);
+  for (double& counts : recording.probe.force_counts) {
+    if (counts > limit_counts) counts = limit_counts;
+  }
+  const ProcessResult after = process_recording(recording, {});
+  EXPECT_NEAR(after.force_limit.limit_N, kLimit_N, force.newton_per_count);
+  EXPECT_GT(after.force_limit.share(), 0.2);
+  for (const double value : {after.compliance.k_c, after.compliance.k_c_stderr, after.stiffness.lower_bound_N_per_mm,
+                             after.friction.coefficient})
+    EXPECT_TRUE(std::isnan(value));
+  EXPECT_NE(after.stiffness.verdict.find("end of its range"), std::string::npos);
+  EXPECT_TRUE(std::any_of(after.verdicts.begin(), after.verdicts.end(), [](const Verdict& v) {
+    return v.code == "force_clipped" && v.severity == Severity::kLimited;
+  }));
+  EXPECT_NEAR(after.roughness->Rq_m, before.roughness->Rq_m, 0.02 * before.roughness->Rq_m);
 }
 
 // A hand that rests eight times and goes on: each time the tip has to break away.

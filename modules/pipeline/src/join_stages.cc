@@ -91,6 +91,7 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.compliance = std::move(stages.compliance.value).value_or(Compliance{});
   result.stiffness = std::move(stages.stiffness.value).value_or(StiffnessEstimate{});
   result.friction = std::move(stages.friction.value).value_or(FrictionEstimate{});
+  result.force_limit = stages.force_limit;
   result.fit = std::move(stages.fit.value);
   if (result.fit) result.texture = join_texture(recording.info.object, method, result);
 }

@@ -21,11 +21,15 @@ constexpr double kForceLaw = 0.5 / std::numbers::sqrt3;
 
 }  // namespace
 
-void measure_on_surface(const TipMotion& motion, const BasePathConfig& config, BasePathResult& base) {
+void measure_on_surface(const TipMotion& motion, const BasePathConfig& config, BasePathResult& base,
+                        bool force_limited) {
   if (base.shape != PathShape::kCircle && base.shape != PathShape::kCurve) return;
   if (motion.force_N.size() != base.path.size()) return;
-  const StiffnessEstimate stiffness = estimate_stiffness(
-      motion, base.path, base.contact, {}, base.shape == PathShape::kCurve ? config.curve_cutoff_cycles_per_mm : 0.0);
+  StiffnessEstimate stiffness;
+  if (!force_limited) {
+    stiffness = estimate_stiffness(motion, base.path, base.contact, {},
+                                   base.shape == PathShape::kCurve ? config.curve_cutoff_cycles_per_mm : 0.0);
+  }
   const LikelyCompliance compliance = likely_compliance(
       stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N, stiffness.degrees_of_freedom);
 

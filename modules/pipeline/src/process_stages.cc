@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "asperity/base/error.h"
 #include "asperity/pipeline/reference.h"
 #include "asperity/pipeline/scan_evidence.h"
@@ -62,6 +64,16 @@ SpeedStatistics measure_speed(const Profile& profile) {
   return out;
 }
 
+// What a regression on the force would be of: nothing, where the sensor was at the end of its range.
+template <class Estimate>
+std::optional<Outcome<Estimate>> without_force(const ForceLimit& limit) {
+  if (!limit.is_limited()) return std::nullopt;
+  Outcome<Estimate> out;
+  out.value.emplace().verdict = fmt::format(
+      "not determined: {:.2g} % of the force's readings are at the end of its range", 100.0 * limit.share());
+  return out;
+}
+
 }  // namespace
 
 Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
@@ -98,6 +110,7 @@ const Recording& in_frame(const Recording& recording, ProcessStages& s) {
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
                                        const ProcessMethod& method, ProcessStages& before) {
   TipMotion& motion = before.trajectory.value->motion;
+  before.force_limit = find_force_limit(recording);
   const auto find = [&] {
     return method.find_base_path ? method.find_base_path(recording, config, motion)
                                  : asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
@@ -119,7 +132,7 @@ Outcome<BasePathResult> find_base_path(const Recording& recording, const Process
       base = find();
       along_normal();
     }
-    measure_on_surface(motion, config.base, base);
+    measure_on_surface(motion, config.base, base, before.force_limit.is_limited());
     return base;
   });
   if (out.value) out.problems = out.value->problems;
@@ -193,11 +206,13 @@ Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before) {
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
                                         const ProcessMethod& method, const ProcessStages& before) {
   if (!before.profile.value) return {};
+  if (auto limited = without_force<Compliance>(before.force_limit)) return *std::move(limited);
   return {method.estimate_compliance(recording, config, before.trajectory.value->motion, *before.base.value), {}};
 }
 
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
+  if (auto limited = without_force<StiffnessEstimate>(before.force_limit)) return *std::move(limited);
   const BasePathResult& base = *before.base.value;
   return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness,
                                        base.shape == PathShape::kCurve ? config.base.curve_cutoff_cycles_per_mm : 0.0),
@@ -206,6 +221,7 @@ Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const
 
 Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
+  if (auto limited = without_force<FrictionEstimate>(before.force_limit)) return *std::move(limited);
   const BasePathResult& base = *before.base.value;
   return {asperity::estimate_friction(before.trajectory.value->motion, base.path, base.contact, config.friction), {}};
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "asperity/base/progress.h"
+#include "asperity/pipeline/force_limit.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/recording/recording.h"
@@ -34,6 +35,7 @@ struct MeasuredProfile {
 struct ProcessStages {
   Outcome<TrajectoryResult> trajectory;  // has a value
   std::optional<Recording> on_object;    // the recording relative to the object, if the trajectory is
+  ForceLimit force_limit;                // found with the base
   Outcome<BasePathResult> base;
   Outcome<MeasuredProfile> profile;
   Outcome<RoughnessResult> roughness;

@@ -314,6 +314,8 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
     if (!std::isfinite(merged.noise_ratio_low) || merged.noise_ratio_low <= out.passes.low) continue;
     out.passes = {merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
   }
+  if (result.force_limit.is_limited()) out.force_limited_share = result.force_limit.share();
+  out.force_limit_N = result.force_limit.limit_N;
   out.sticks = result.friction.sticks;
   out.stuck_share = result.friction.stuck_share;
 }

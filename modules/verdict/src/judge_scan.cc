@@ -123,6 +123,15 @@ void judge_sticking(const ScanEvidence& e, Verdicts& out) {
           e.sticks, 100.0 * e.stuck_share)));
 }
 
+void judge_force_range(const ScanEvidence& e, Verdicts& out) {
+  if (!(e.force_limited_share > 0.0)) return;
+  out.push_back(make_verdict(
+      "force_clipped",
+      fmt::format("{:.2g} % of the force's readings are at its highest value, {:.3g} N: the tip was pressed harder, or "
+                  "the sensor does not resolve the force. Compliance, stiffness and friction are not determined",
+                  100.0 * e.force_limited_share, e.force_limit_N)));
+}
+
 void judge_surface(const ScanEvidence& e, Verdicts& out) {
   if (!e.measured) return;
   if (e.reads_no_contact) {
@@ -161,6 +170,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
                      "the force never changes: where the tip touched is not known, and all of the path counts "
                      "as scanned"));
   }
+  judge_force_range(e, out);
   judge_length(e, out);
   judge_noise(e, out);
   judge_passes(e.passes, out);

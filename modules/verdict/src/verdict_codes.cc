@@ -61,6 +61,7 @@ constexpr VerdictCode kCodes[] = {
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
     {"vibration", kLimited, "switch off motors and fans nearby, and keep the sensor's cable away from mains cables"},
     {"may_be_hum", kLimited, "scan again at another speed: a pattern of the surface keeps its pitch"},
+    {"force_clipped", kLimited, "press more lightly, or use a force sensor with a wider range"},
     {"stick_slip", kLimited, "press more lightly, or move faster"},
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},

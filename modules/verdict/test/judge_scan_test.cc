@@ -59,6 +59,17 @@ std::vector<std::string> codes(const ScanEvidence& evidence) {
 
 TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
 
+TEST(JudgeScan, AForceAtTheEndOfItsRangeLimits) {
+  ScanEvidence e = good();
+  e.force_limited_share = 0.03;
+  e.force_limit_N = 1.8;
+  const Verdicts verdicts = judge_scan(e);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].code, "force_clipped");
+  EXPECT_EQ(verdicts[0].severity, Severity::kLimited);
+  EXPECT_THAT(verdicts[0].message, HasSubstr("3 % of the force's readings are at its highest value, 1.8 N"));
+}
+
 // Nothing is concluded against a scan from what is unknown, but heights whose noise is unknown are not valid.
 TEST(JudgeScan, HeightsOfUnknownNoiseAreNotValid) {
   EXPECT_THAT(codes(ScanEvidence()), testing::ElementsAre("error_unknown"));

@@ -69,7 +69,7 @@ TEST_F(StudyPageTest, GoesOnWithTheTexturesItBeganWithAlone) {
   EXPECT_EQ(rig.status()["phase"], "none");
   const FakeHub::Answer refused = rig.ask("study.continue", {{"log", "study_p01.study.csv"}});
   EXPECT_EQ(refused.error, "tile1.pgm has changed since this session began");
-  EXPECT_THAT(refused.hint, HasSubstr("Restore the old file and continue, or begin a new session."));
+  EXPECT_THAT(refused.hint, HasSubstr("Restore what has changed and continue, or begin a new session."));
   EXPECT_EQ(log(), rows);
   std::ofstream(folder / "tile1.pgm", std::ios::binary) << before;
   EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");

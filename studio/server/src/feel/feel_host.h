@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "asperity/scene/scene.h"
+#include "asperity/session/tile_touches.h"
 #include "asperity/studio/calls.h"
 #include "feel/feel_setup.h"
-#include "feel/tile_touches.h"
 
 namespace asperity::studio {
 

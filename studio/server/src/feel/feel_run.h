@@ -15,9 +15,9 @@
 #include "asperity/device/snapshot_exchange.h"
 #include "asperity/session/feel_report.h"
 #include "asperity/session/run_evidence.h"
+#include "asperity/session/tile_touches.h"
 #include "asperity/studio/hub.h"
 #include "feel/run_log.h"
-#include "feel/tile_touches.h"
 
 namespace asperity::studio {
 

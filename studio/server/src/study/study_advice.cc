@@ -20,6 +20,10 @@ const char* hint_for(StudyFault fault) {
       return "Change one of the three.";
     case StudyFault::kStaircaseReversals:
       return "Set at least two reversals more than halvings.";
+    case StudyFault::kNoFriction:
+      return "Set the study's friction, or choose another parameter.";
+    case StudyFault::kTexturesChanged:
+      return "Restore what has changed and continue, or begin a new session.";
   }
   return "";
 }

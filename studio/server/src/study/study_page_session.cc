@@ -5,11 +5,11 @@
 #include "asperity/base/host_clock.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/session/study_stimuli.h"
 #include "asperity/session/utc_now.h"
 #include "asperity/studio/calls.h"
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
-#include "study/stimuli.h"
 #include "study/study_advice.h"
 #include "study/study_page.h"
 #include "study/trial_scene.h"
@@ -44,7 +44,7 @@ struct StudyPage::Opening {
 
   void open_new() {
     check_plan(study);
-    stimuli = read_stimuli(study, project);
+    stimuli = read_textures(study);
     const std::string stem = study.name + '_' + participant;
     int run = 1;
     name = stem + std::string(kStudyLogEnding);
@@ -72,6 +72,10 @@ struct StudyPage::Opening {
     }
   }
 
+  Stimuli read_textures(const Study& of) const {
+    return read_stimuli(of, [this](const std::string& stimulus) { return project.existing(stimulus); });
+  }
+
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) {
       throw Advice(printable(name, 200) + ": is not the log of a study",
@@ -81,7 +85,7 @@ struct StudyPage::Opening {
     name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestStudyLog_bytes), name);
     if (!read.session.trial()) throw Advice(name + ": all trials are answered", "Open its results.");
-    stimuli = read_stimuli(read.session.study(), project);
+    stimuli = read_textures(read.session.study());
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);
     log = std::make_shared<StudyLogFile>(StudyLogFile::open(file, read.whole_bytes));
     before_s = read.since_begin_s;

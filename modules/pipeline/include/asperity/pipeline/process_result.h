@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
+#include "asperity/pipeline/force_limit.h"
 #include "asperity/pipeline/measure_accuracy.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/profile/erode_profile.h"
@@ -72,6 +73,7 @@ struct ProcessResult {
   Compliance compliance;
   StiffnessEstimate stiffness;
   FrictionEstimate friction;
+  ForceLimit force_limit;
   std::optional<FourierFit> fit;
   std::optional<Texture> texture;
   std::optional<Accuracy> accuracy;  // where the recording knows the truth

@@ -15,6 +15,8 @@ enum class StudyFault {
   kTooManyTrials,       // more than kMostTrials
   kStaircaseLevels,     // out of order
   kStaircaseReversals,  // none is left after the halvings
+  kNoFriction,          // of a texture whose friction is to be changed
+  kTexturesChanged,     // since the session began
 };
 
 // An Error with its cause, so that a message can state what to do about it.

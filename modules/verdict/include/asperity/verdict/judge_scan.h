@@ -64,6 +64,8 @@ struct ScanEvidence {
   std::string no_texture;
   double contact_s = kUnknown;  // time that the tip touched
   double tip_radius_m = 0.0;
+  double force_limited_share = 0.0;  // of the force's readings, at the end of its range (force_limit.h)
+  double force_limit_N = kUnknown;
   bool reads_no_contact = false;  // there is a calibrated force sensor, and its constant reading is below touching
   double covered = kUnknown;      // part of the profile that has heights
   double min_coverage = 0.5;

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "asperity/studio/project.h"
 #include "asperity/study/study.h"
 #include "asperity/texture/texture.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 // The textures of a study, both in the order of its names.
 struct Stimuli {
@@ -20,10 +21,12 @@ struct Stimuli {
 // Whether a stimulus of this name is an image; else it is a *.texture.json.
 bool is_image(const std::string& name);
 
-// Not for the studio's thread. Throws Error naming the file, and for a staircase of friction on a texture without any.
-Stimuli read_stimuli(const Study& study, const Project& project);
+// Reads files, of up to a gigabyte. `find` gives the file of a stimulus by its name. Throws Error naming the file, and
+// StudyError (kNoFriction) for a staircase of friction on a texture without any.
+Stimuli read_stimuli(const Study& study, const std::function<std::filesystem::path(const std::string&)>& find);
 
-// Throws Advice naming the textures that differ from those of `logged_crc32`; without check sums nothing is compared.
+// Throws StudyError (kTexturesChanged) naming the textures that differ from those of `logged_crc32`; without check sums
+// nothing is compared.
 void check_unchanged(const Study& study, const Stimuli& stimuli, const std::vector<std::uint32_t>& logged_crc32);
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -1,16 +1,15 @@
-#include "study/stimuli.h"
+#include "asperity/session/study_stimuli.h"
 
 #include <string_view>
-#include <utility>
 
 #include "asperity/base/crc32.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
-#include "asperity/studio/calls.h"
+#include "asperity/study/study_error.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -20,13 +19,13 @@ constexpr std::uint64_t kLargestImage_bytes = std::uint64_t{1} << 30U;
 
 bool is_image(const std::string& name) { return name.ends_with(".png") || name.ends_with(".pgm"); }
 
-Stimuli read_stimuli(const Study& study, const Project& project) {
+Stimuli read_stimuli(const Study& study, const std::function<std::filesystem::path(const std::string&)>& find) {
   ReadHeightImageConfig image;
   image.width_mm = study.presentation.tile_mm;
   image.range_mm = study.presentation.range_mm;
   Stimuli out;
   for (const std::string& name : study.stimuli) {
-    const auto file = project.existing(name);
+    const std::filesystem::path file = find(name);
     std::string bytes;
     if (is_image(name)) {
       bytes = read_file(file, kLargestImage_bytes);
@@ -37,8 +36,7 @@ Stimuli read_stimuli(const Study& study, const Project& project) {
     out.crc32.push_back(asperity::crc32(bytes));
     const bool slippery = !(out.textures.back().friction.value_or(study.presentation.friction) > 0.0);
     if (study.method == StudyMethod::kStaircase && study.parameter == StudyParameter::kFrictionDifference && slippery) {
-      throw Advice(printable(name, 200) + ": has no friction to change",
-                   "Set the study's friction, or choose another parameter.");
+      throw StudyError(StudyFault::kNoFriction, printable(name, 200) + ": has no friction to change");
     }
   }
   return out;
@@ -52,9 +50,8 @@ void check_unchanged(const Study& study, const Stimuli& stimuli, const std::vect
     changed += (count++ > 0 ? ", " : "") + printable(study.stimuli.at(k), 200);
   }
   if (count == 0) return;
-  throw Advice(
-      changed + (count == 1 ? " has" : " have") + " changed since this session began",
-      std::string("Restore the old ") + (count == 1 ? "file" : "files") + " and continue, or begin a new session.");
+  throw StudyError(StudyFault::kTexturesChanged,
+                   changed + (count == 1 ? " has" : " have") + " changed since this session began");
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

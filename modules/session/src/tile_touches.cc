@@ -1,8 +1,8 @@
-#include "feel/tile_touches.h"
+#include "asperity/session/tile_touches.h"
 
 #include <utility>
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::array<TileTouch, 2> TileTouches::touches() const {
   return out;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

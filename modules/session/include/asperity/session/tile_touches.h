@@ -8,7 +8,7 @@
 #include "asperity/device/servo_tick.h"
 #include "asperity/study/tile_touch.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 // How the tiles of one trial were touched, from the ticks of the runs in which it was rendered. Thread-safe.
 class TileTouches {
@@ -33,4 +33,4 @@ class TileTouches {
   std::int64_t before_ns_ = -1;  // the tick before; -1: none
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity
