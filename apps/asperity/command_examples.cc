@@ -52,6 +52,7 @@ constexpr std::array kExamples{
     Example{"texture swap", "asperity texture swap object.scene.json 0 wood.texture.json -o other.scene.json"},
     Example{"texture compare", "asperity texture compare wood.texture.json out/profile.csv"},
     Example{"study plan", "asperity study plan --share 0.7"},
+    Example{"study run", "asperity study run wood.study.json --participant p01 --device haply"},
     Example{"study summarize", "asperity study summarize wood_AB12.study.csv"},
     Example{"study table", "asperity study table wood_p01.study.csv wood_p02.study.csv -o wood.csv"},
     Example{"markers sheet", "asperity markers sheet -o tags.pdf"},

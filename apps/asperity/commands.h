@@ -31,6 +31,7 @@ std::unique_ptr<Command> make_track(Parser& root);
 
 // The commands below `asperity study`.
 std::unique_ptr<Command> make_study_plan(Parser& study);
+std::unique_ptr<Command> make_study_run(Parser& study);
 std::unique_ptr<Command> make_study_summarize(Parser& study);
 std::unique_ptr<Command> make_study_table(Parser& study);
 

@@ -41,10 +41,11 @@ TrialRun::TrialRun(const Study& study, const Stimuli& stimuli, const Trial& firs
   drive_ = drive_of(study_, kind_, make_blank_trial_scene(study_), settings_);
   device_ = open_device(study_.presentation.device, drive_, settings_);
   if (const std::string told = device_->fault(); !told.empty()) warnings_.push_back(told);
-  // It also puts the middle of the device's workspace into the middle of the scene, which all trials share.
+  // It also puts the middle of the device's workspace into the middle of the scene, which all trials share. The axes of
+  // a driven device are the scene's.
   PreparedModel prepared = prepare_render_model(make_trial_scene(study_, stimuli_.textures, first), device_->info(),
                                                 kind_.driven(), settings_);
-  warnings_.insert(warnings_.end(), prepared.warnings.begin(), prepared.warnings.end());
+  if (kind_.driven()) settings_.servo.frame = DeviceFrame();
   scene_ = std::make_unique<SnapshotExchange<const RenderModel>>(std::move(prepared.model));
   watch();
   thread_ = std::thread([this] { run(); });
@@ -86,8 +87,9 @@ void TrialRun::watch() {
 
 void TrialRun::present(const Trial& trial) {
   permit_.revoke();
+  FeelSettings settings = settings_;  // those of the servo thread stay
   PreparedModel prepared = prepare_render_model(make_trial_scene(study_, stimuli_.textures, trial), device_->info(),
-                                                kind_.driven(), settings_);
+                                                kind_.driven(), settings);
   scene_->publish(std::move(prepared.model));
   watch();
 }
@@ -105,8 +107,7 @@ Verdicts TrialRun::finish() {
   stop_.store(true);
   if (thread_.joinable()) thread_.join();
   if (failure_) std::rethrow_exception(failure_);
-  return judge_run(
-      run_evidence(statistics_, servo_, *device_, drive_, *scene_->acquire(), settings_.servo.safety));
+  return judge_run(run_evidence(statistics_, servo_, *device_, drive_, *scene_->acquire(), settings_.servo.safety));
 }
 
 }  // namespace asperity::app

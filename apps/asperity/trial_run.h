@@ -50,6 +50,7 @@ class TrialRun {
   bool has_ended() const { return ended_.load(); }
   // Stops it; why it ended, and what is to be said of that. Throws what the loop threw.
   Verdicts finish();
+  // What the device says of itself. What the renderer says of a trial's scene would tell its textures apart.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
