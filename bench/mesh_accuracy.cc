@@ -1,5 +1,5 @@
 // Scans of a mesh, simulated, registered from 5 mm and 5 degrees off, and compared with the truth: medians over
-// several seeds, and the worst. Prints a table in Markdown; docs/accuracy.md says what it means.
+// several seeds, and the worst. Prints a table in Markdown; docs/accuracy-mesh.md says what it means.
 //
 //   mesh_accuracy [--seeds N] [--surfaces sandpaper,…] [--mesh FILE --unit M] [--length M] [--through POINTS]
 //                 [--off-mm 5] [--off-deg 5] [--calibration stated|exact] [--coarse M] [--each yes]

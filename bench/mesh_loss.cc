@@ -1,6 +1,6 @@
 // Where a profile over a mesh loses what one over a plane has: the scans of mesh_accuracy's arc over a pebble,
 // registered from 5 mm and 5 degrees off, and the same with one error at a time. Prints a table in Markdown: medians
-// over the seeds and the worst; docs/accuracy.md says what it means.
+// over the seeds and the worst; docs/accuracy-mesh.md says what it means.
 //
 //   mesh_loss [--seeds N] [--surfaces sandpaper,protoboard] [--facet-mm 1.5] [--tracker-noise 1] [--each yes]
 //

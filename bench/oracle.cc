@@ -1,5 +1,5 @@
 // What share of the best possible correlation the product reaches: its heights against those of an oracle that knows
-// the true spectra (docs/accuracy.md, "The seed's probe and an oracle").
+// the true spectra (docs/accuracy-oracle.md).
 //
 //   oracle [--scans 4] [--seed 1] [--simulator ours|second] [--probes what] [--families …] [--speed 0.025]
 //

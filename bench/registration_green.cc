@@ -1,6 +1,6 @@
 // Whether the verdict on a registration can be believed: random cases, many of them made to go wrong, each registered
 // as `asperity register` does (locate_scans) from points with the errors that a scan has, and judged. Prints a table in
-// Markdown; docs/accuracy.md says what it means.
+// Markdown; docs/accuracy-poses.md says what it means.
 //
 //   registration_green [--cases 400] [--first 0] [--whole 0] [--seed 1] [--jobs 1] [--mesh FILE,…] [--each yes] [--only
 //   CLASS] [--csv FILE]

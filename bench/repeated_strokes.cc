@@ -1,5 +1,5 @@
 // A recording whose path is over the same line several times: the RMS error of its passes without and with the merge,
-// medians over them, and whether the merge was laid (docs/merge.md, "In one recording").
+// medians over them, and whether the merge was laid (docs/merge-lines.md).
 //
 //   repeated_strokes [--surfaces sandpaper,clay_pot,sine,protoboard,cable_tie] [--strokes 5] [--length_m 0.04]
 //                    [--repeats 3] [--seed 1] [--paths guide,free,near,rows,mesh] [--probe open]

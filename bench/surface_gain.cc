@@ -1,5 +1,5 @@
 // Tip and surface: how far the gain of the measured texture is from one, against the tip's true height and against the
-// surface under it, without and with the contact's resonance stated (docs/profile.md, "Surface and tip").
+// surface under it, without and with the contact's resonance stated (docs/profile-surface.md).
 //
 //   surface_gain [--scans 20] [--seed 1] [--simulator ours|second] [--families fine,…]
 //

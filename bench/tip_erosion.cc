@@ -1,5 +1,5 @@
 // The tip's height and the eroded one beside the surface, and the bound of the tip's radius that the heights give
-// (docs/merge.md, "Tip").
+// (docs/tip-erosion.md).
 //
 //   tip_erosion [--surfaces ridges,grooves,sandpaper,clay_pot,cable_tie,protoboard] [--repeats 2] [--seed 1]
 //               [--imperfection 1] [--radius_error 0] [--speed_mps 0.025]

@@ -35,7 +35,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(asperity_flags INTERFACE -Wno-subobject-linkage)
   endif()
 endif()
-# Hardening; what it costs the servo is in docs/performance.md. --as-needed: a library that nothing uses is not loaded.
+# Hardening; its cost for the servo is in docs/performance-build.md. --as-needed: a library that nothing uses is not loaded.
 include(CheckPIESupported)
 check_pie_supported()
 add_library(asperity_hardening INTERFACE)
@@ -99,7 +99,7 @@ function(asperity_test_program target)
   target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main)
 endfunction()
 
-# asperity_optimise_fully(target): -O3 in release builds, where a measurement shows that it pays (docs/performance.md).
+# asperity_optimise_fully(target): -O3 in release builds, where it was measured to pay (docs/performance-build.md).
 # Without precompiled headers: g++ compiles a file that includes one with the header's -O2, whatever the file's own option.
 function(asperity_optimise_fully target)
   set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)

@@ -5,7 +5,7 @@
 #include "asperity/pipeline/process_session.h"
 #include "asperity/simulation/simulate_recording.h"
 
-// A recording whose path comes back over the line that it was over before (docs/merge.md, "In one recording").
+// A recording whose path comes back over the line that it was over before (docs/merge-lines.md).
 namespace asperity {
 namespace {
 

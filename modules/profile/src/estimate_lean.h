@@ -32,7 +32,7 @@ struct LeanPrior {
   double texture_axis_sigma_rad = 0.0;  // BasePathConfig; 0: the fine motion is not used
 };
 
-// The posterior of φ from three independent sources (docs/profile.md, "How far the normals lean"):
+// The posterior of φ from three independent sources (docs/profile-lean.md):
 //
 // The base's prior, N(0, σ₀²).
 //

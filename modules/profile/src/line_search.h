@@ -53,7 +53,7 @@ class LineSearch {
 
   // How many waves down to the shortest pass what is asked of an ordinate by itself. Only these are compared with their
   // neighbours, which takes a fixed number of passes over the heights: at most 158 times the heights with their gaps
-  // over those that are present (docs/periodicity.md), however long the profile is. Of pairs, at most 64 are.
+  // over those that are present (docs/periodicity-search.md), however long the profile is. Of pairs, at most 64 are.
   std::size_t count_candidates() const;
 
  private:

@@ -219,7 +219,7 @@ TEST(LineSearch, FewHeightsOfALongPathHaveNoLine) {
 
 // Where the stated noise exceeds the heights at high frequencies, the surface's power came out below 0, and every
 // ordinate of a long profile was compared with its neighbours. The bound is 128/(1 − 1/ln 200) waves a height, which
-// docs/periodicity.md derives.
+// docs/periodicity-search.md derives.
 TEST(LineSearch, OverstatedNoiseDoesNotMakeTheSearchLonger) {
   constexpr double kMostWaves = 158.0;
   const std::vector<double> frequency{0.0, 3.4, 3.5, 20.0};

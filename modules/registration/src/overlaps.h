@@ -28,8 +28,9 @@ struct LinkResidual {
 };
 LinkResidual link_residual(const OverlapLink& link, const FacetHeights& heights);
 
-// The links between all paths, and within paths that double back, as they are at `heights` (docs/registration.md,
-// "Overlapping scans"). `reach_m`: strokes farther apart, across, do not meet the same texture.
+// The links between all paths, and within paths that double back, as they are at `heights`
+// (docs/registration-placements.md, "Overlapping scans"). `reach_m`: strokes farther apart, across, do not meet the
+// same texture.
 std::vector<OverlapLink> find_overlaps(const PathChain& chain, const FacetHeights& heights, double reach_m);
 
 }  // namespace asperity::registration

@@ -31,8 +31,8 @@ struct Path {
 Path smooth(ChartKind kind, const Measured& measured, const Eigen::Vector3d& density,
             const Eigen::Vector3d& noise_factor, const std::vector<double>& weight, double gate_chi2);
 
-// Of each axis, zᵀV⁻¹VᵢV⁻¹z and tr V⁻¹Vᵢ for Vᵢ what θᵢ stands for, as in docs/trajectory.md: by their ratio a density
-// (or a factor on the poses' variances) grows.
+// Of each axis, zᵀV⁻¹VᵢV⁻¹z and tr V⁻¹Vᵢ for Vᵢ what θᵢ stands for, as in docs/trajectory-noise.md: by their ratio a
+// density (or a factor on the poses' variances) grows.
 struct Learnt {
   Eigen::Vector3d density_seen = Eigen::Vector3d::Zero(), density_expected = Eigen::Vector3d::Zero();
   Eigen::Vector3d noise_seen = Eigen::Vector3d::Zero(), noise_expected = Eigen::Vector3d::Zero();

@@ -5,8 +5,8 @@
 
 namespace asperity::inertial_smoother {
 
-// The variance components of the model (docs/trajectory.md has them one by one): the covariance of everything that is
-// random is a sum of known matrices, each times a factor that is learnt from the recording.
+// The variance components of the model (docs/trajectory-noise.md has them one by one): the covariance of everything
+// that is random is a sum of known matrices, each times a factor that is learnt from the recording.
 enum Component : std::size_t {
   kAccelOwn,     // the sensor's own noise, white
   kAccelMotion,  // grows with the moving part of the specific force

@@ -14,7 +14,7 @@ inline constexpr std::uint8_t kNearScan = 1;   // another scan passes there
 inline constexpr std::uint8_t kOnTexture = 2;  // a triangle that has the texture of a scan in the scene
 
 // How near two scans are where they overlap: the distance at which registration links them and one spacing of their
-// points (docs/registration.md, "Overlapping scans").
+// points (docs/registration-placements.md, "Overlapping scans").
 double overlap_reach_m(const AlignScene& scene);
 
 // Of each point that is drawn: kNearScan if a point of another scan, thinned or not, is within that distance; 0

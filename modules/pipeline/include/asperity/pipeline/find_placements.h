@@ -18,8 +18,8 @@ struct FoundPlacements {
   std::vector<Pose> poses;                       // of each group
 };
 
-// The test of docs/registration.md, "Which scans share a placement": each scan is registered alone, from `guess` and
-// over the whole mesh; scan after scan then joins the placement to which it belongs by the largest odds
+// The test of docs/registration-placements.md, "Which scans share a placement": each scan is registered alone, from
+// `guess` and over the whole mesh; scan after scan then joins the placement to which it belongs by the largest odds
 // (placement_likelihood.h), if these are above one, and else begins one. Throws Error as find_poses does, and
 // Cancelled.
 FoundPlacements find_placements(const ScanPoints& scans, const RegistrationSurface& ready,

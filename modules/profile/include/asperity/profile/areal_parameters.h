@@ -8,8 +8,8 @@
 
 namespace asperity {
 
-// Parameters of a scale-limited surface by ISO 25178-2:2021, heights from its mean; docs/roughness.md has the formulas.
-// A parameter that the surface does not define is nan.
+// Parameters of a scale-limited surface by ISO 25178-2:2021, heights from its mean; docs/roughness-areal.md has the
+// formulas. A parameter that the surface does not define is nan.
 struct ArealParameters {
   double Sa_m = kNan;
   double Sq_m = kNan;

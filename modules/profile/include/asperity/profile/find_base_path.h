@@ -103,8 +103,8 @@ struct BasePathResult {
 // How far the plane turns about the stroke is found from the path's lateral extent against `slow_error_m` (no smaller
 // than the motion's own standard deviation) and from the probe's axis; how far a circle's normals lean, from the same
 // and from the sideways curvature of a hand's stroke. Both are then corrected by the motion above 4 Hz, in which tremor
-// across the path and texture along the normal are not correlated, and by a force with three axes (docs/profile.md,
-// "How far the normals lean"). Between plane and circle decide the curvature's significance, the probe's axis, the fine
+// across the path and texture along the normal are not correlated, and by a force with three axes
+// (docs/profile-lean.md). Between plane and circle decide the curvature's significance, the probe's axis, the fine
 // motion's direction and the residuals.
 // Throws Error for fewer than 20 samples, sizes that differ, or numbers that are not finite.
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,

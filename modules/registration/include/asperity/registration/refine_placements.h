@@ -27,12 +27,12 @@ struct RefinedPlacements {
   std::size_t shifts = 0;
 };
 
-// The poses of all placements at once, from those that refine_registration gave one by one (docs/registration.md, "All
-// placements together"): the tip's position, which all scans of a session share, the slow errors, the mean reliefs
-// and the poses are the unknowns of one sparse least-squares problem; where paths meet on the mesh, their heights and
-// their textures link them. `placement_of` has an index into `starts` for each path, `guesses` one a placement or is
-// empty. The normal equations are factored by Eigen's sparse L D Lᵀ on one thread, in an order that depends on their
-// pattern alone: the same input gives the same bytes. Throws Cancelled.
+// The poses of all placements at once, from those that refine_registration gave one by one
+// (docs/registration-placements.md): the tip's position, which all scans of a session share, the slow errors, the mean
+// reliefs and the poses are the unknowns of one sparse least-squares problem; where paths meet on the mesh, their
+// heights and their textures link them. `placement_of` has an index into `starts` for each path, `guesses` one a
+// placement or is empty. The normal equations are factored by Eigen's sparse L D Lᵀ on one thread, in an order that
+// depends on their pattern alone: the same input gives the same bytes. Throws Cancelled.
 RefinedPlacements refine_placements(std::span<const MeasuredPath> paths, std::span<const std::size_t> placement_of,
                                     const MeshSurface& surface, std::span<const RegistrationResult> starts,
                                     std::span<const std::optional<Pose>> guesses, const RefineConfig& config,

@@ -22,7 +22,7 @@ SeriesBlend blend_models(const AutoregressiveTexture& texture, double speed_mps,
 // The filter at a point: reflection coefficients, always within ±1, and numerator from the mixed frequencies. The
 // variance of the output is mixed itself, and what comes from the filter is normalised to it: computed from a mixed
 // excitation, or from a mixed gain, it would be too loud or too soft by far between filters of very different gain
-// (docs/texture-series.md).
+// (docs/texture-autoregressive.md).
 struct BlendedFilter {
   int order = 0;
   int ma_order = 0;

@@ -53,7 +53,7 @@ struct HeldOutStrokes {
   double explained = std::numeric_limits<double>::quiet_NaN();         // part of the held-out heights' variance
 };
 
-// A surface from many strokes; docs/areas.md has the mathematics.
+// A surface from many strokes; docs/areas-method.md has the mathematics.
 struct StrokeMap {
   ArealTexture texture;  // sigma_m everywhere, supported 0 in holes
   ArealSpectrum spectrum;

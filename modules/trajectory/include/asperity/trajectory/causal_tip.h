@@ -52,7 +52,7 @@ struct CausalTipCounts {
 };
 
 // The tip's motion at the probe's own sample times while they come: the filter of fused.h, smoothed over a fixed lag
-// (docs/live-profile.md). Memory is bounded. Thread-safe: no.
+// (docs/live-profile-tip.md). Memory is bounded. Thread-safe: no.
 class CausalTip {
  public:
   // Throws Error if the calibration is singular.
@@ -70,7 +70,7 @@ class CausalTip {
   // Appends the samples that have become final since the last call to `out`, in order of time. `broken` is set for a
   // sample before which the estimate restarted: positions jump there.
   // `steady_m` is the tip's position again, with the tracker's corrections let in slowly: worse as a position, far
-  // better where it is compared with itself a few millimetres back (docs/live-profile.md).
+  // better where it is compared with itself a few millimetres back (docs/live-profile-tip.md).
   // `ahead_m` is the way from the sample to where the newest window has the tip ahead_s later: not final.
   struct Samples {
     TipMotion motion;

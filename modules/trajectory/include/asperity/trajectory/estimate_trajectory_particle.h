@@ -42,8 +42,8 @@ struct ParticleConfig {
 };
 
 // The tip's motion at the probe's samples by a Rao–Blackwellised particle filter (Doucet, de Freitas, Murphy and
-// Russell, 2000; docs/comparison.md has the formulae). What is not Gaussian is in the particles: whether each pose is
-// good or wild, a Markov chain, and two factors on the process noise, of the accelerometer and of the gyroscope
+// Russell, 2000; docs/comparison-methods.md has the formulae). What is not Gaussian is in the particles: whether each
+// pose is good or wild, a Markov chain, and two factors on the process noise, of the accelerometer and of the gyroscope
 // (without one, of the angular acceleration), a random walk in the logarithm with jumps (a static interval ends from
 // one pose to the next). What is linear and Gaussian but for rotations, given these, is a filter of its own in each
 // particle: that of estimate_trajectory_ekf.h, without its gate. The indicator is drawn from its posterior given the
