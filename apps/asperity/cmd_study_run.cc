@@ -63,7 +63,6 @@ class StudyRunCommand : public Command {
     if (session_->answers().empty() && !agrees(keys)) {
       throw Error("the participant has not agreed; no session was begun");
     }
-    if (!log_) create_log();
     return ask(keys);
   }
 
@@ -148,6 +147,7 @@ class StudyRunCommand : public Command {
 
   int ask(AnswerKeys& keys) {
     TrialRun run(session_->study(), stimuli_, *session_->trial(), settings_);
+    if (!log_) create_log();  // not before the device is there
     for (const std::string& warning : run.warnings()) print_error(warning);
     begun_ = Clock::now();
     paused_ = false;

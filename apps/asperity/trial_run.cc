@@ -15,7 +15,7 @@ namespace asperity::app {
 namespace {
 
 constexpr std::chrono::milliseconds kHold(300);  // without force after another trial was presented
-constexpr double kHandGoesOn_s = 3600.0;         // of a modelled hand: nobody answers for longer
+constexpr double kHandGoesOn_s = 600.0;          // of a modelled hand
 
 FeelSettings presented(const Study& study, FeelSettings settings) {
   apply_presentation(study, settings);
