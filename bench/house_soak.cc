@@ -1,4 +1,4 @@
-// The house at work for an hour (docs/safety-tests.md): the recorder at 4 kHz and 120 Hz, the studio with three windows, one
+// The house at work for an hour (docs/safety.md): the recorder at 4 kHz and 120 Hz, the studio with three windows, one
 // of which strokes a surface while two watch it and a scan of the bench, and `feel` on a played 2diy. Each is a
 // process of its own; once a tenth of the time its memory, descriptors and threads are read from /proc.
 //   house_soak [MINUTES]     60 if not given; fails if one ends early, loses something, or grows
