@@ -1,5 +1,5 @@
 // Program × device × fault: the force is at zero in time, or no larger than before. Each cell prints a row;
-// FAULT_MATRIX=FILE appends them to a file, from which scripts/fault_matrix makes the table of docs/safety.md.
+// FAULT_MATRIX=FILE appends them to a file, from which scripts/fault_matrix makes the table of docs/safety-tests.md.
 // FAULT_MATRIX_TALLY=FILE gets a line for each cell, "DEVICE measured" or "DEVICE open" (tests/fault_matrix).
 #include <gtest/gtest.h>
 #include <pthread.h>

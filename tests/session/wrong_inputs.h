@@ -11,7 +11,7 @@ namespace asperity {
 // One thing wrong with an otherwise good recording.
 struct WrongInput {
   std::string group;  // "tracker", "accelerometer", …
-  std::string what;   // in words, as in docs/verdicts.md
+  std::string what;   // in words, as in docs/verdicts-wrong-inputs.md
   std::function<Recording()> make;
 };
 

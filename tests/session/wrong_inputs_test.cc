@@ -11,7 +11,7 @@
 #include "asperity/pipeline/process_recording.h"
 #include "wrong_inputs.h"
 
-// No wrong input may come out as valid but those that docs/verdicts.md names: its table is run.
+// No wrong input may come out as valid but those that docs/verdicts-wrong-inputs.md names: its table is run.
 namespace asperity {
 namespace {
 
@@ -52,7 +52,7 @@ TEST(WrongInputs, AreJudgedAsDocumented) {
     const std::string name = wrong.group + ": " + wrong.what;
     const auto row = rows.find(name);
     if (row == rows.end()) {
-      ADD_FAILURE() << name << " is not in docs/verdicts.md";
+      ADD_FAILURE() << name << " is not in docs/verdicts-wrong-inputs.md";
       continue;
     }
     std::set<std::string> codes;
