@@ -124,7 +124,7 @@ class StudyRunCommand : public Command {
     const DeviceKind* kind = find_device_kind(device);
     if (kind == nullptr || kind->mover == DeviceMover::kPath) {
       throw UsageError("--device: '" + printable(device) +
-                       "' is no device for a study; asperity feel --help lists them");
+                       "' cannot be used for a study; asperity feel --help lists them");
     }
     if (const auto needed = settings_.devices.missing(device)) {
       throw UsageError(fmt::format("--device {}: its {} is missing, --set {}={} or such", device, needed->what,
@@ -173,7 +173,7 @@ class StudyRunCommand : public Command {
   bool take(char key, TrialRun& run) {
     if (key == kPause || (paused_ && key == kGoOn)) {
       paused_ = key == kPause;
-      tell(paused_ ? "Pause. Space: go on" : "");
+      tell(paused_ ? "Pause. Space: continue" : "");
       if (!paused_) announce();
       return false;
     }
@@ -183,7 +183,7 @@ class StudyRunCommand : public Command {
     }
     const std::optional<int> value = value_of(key);
     if (paused_ || !value) {
-      tell(paused_ ? "Pause. Space: go on" : keys_text());
+      tell(paused_ ? "Pause. Space: continue" : keys_text());
       return false;
     }
     if (!is_touched(run)) {
@@ -201,7 +201,7 @@ class StudyRunCommand : public Command {
     run.present(*session_->trial());
     const int every = session_->study().break_every;
     paused_ = every > 0 && session_->answers().size() % static_cast<std::size_t>(every) == 0;
-    paused_ ? tell("Break. Space: go on") : announce();
+    paused_ ? tell("Break. Space: continue") : announce();
     return false;
   }
 
