@@ -221,7 +221,9 @@ Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const
 
 Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
-  if (auto limited = without_force<FrictionEstimate>(before.force_limit)) return *std::move(limited);
+  if (!before.trajectory.value->motion.force_world_N.empty()) {
+    if (auto limited = without_force<FrictionEstimate>(before.force_limit)) return *std::move(limited);
+  }
   const BasePathResult& base = *before.base.value;
   return {asperity::estimate_friction(before.trajectory.value->motion, base.path, base.contact, config.friction), {}};
 }

@@ -66,9 +66,10 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
   const double in_place = std::isfinite(e.stretch_correlation) ? e.stretch_correlation : 1.0;
   const double by_noise = std::sqrt(e.snr / (1.0 + e.snr)), limit = std::sqrt(kInvisible_snr / (1.0 + kInvisible_snr));
   // By the whole path's power a few events stand out too: something must do so in a typical stretch (snr is of that).
-  // A pattern goes over the whole path, and its line has been tested against the largest noise: where one is found,
-  // the expected correlation need not be higher than that of the least SNR.
-  const bool stands_out = e.snr >= kInvisible_snr ||
+  // In a typical stretch alone the whole path may have more noise: its expected correlation must be that of the least
+  // SNR. A pattern goes over the whole path, and its line has been tested against the largest noise: where one is
+  // found, the expected correlation need not be higher than that of the least SNR.
+  const bool stands_out = (e.snr >= kInvisible_snr && !(e.expected_correlation < in_place * limit)) ||
                           (e.snr > 0.0 && e.expected_correlation >= in_place * kSeen_correlation) ||
                           (e.pattern_found && e.expected_correlation >= in_place * limit);
   if (!stands_out) {

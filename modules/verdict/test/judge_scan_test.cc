@@ -59,6 +59,22 @@ std::vector<std::string> codes(const ScanEvidence& evidence) {
 
 TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
 
+// As in scan 431000050 of the second bench, on glass at r = 0.32.
+TEST(JudgeScan, ATextureThatStandsOutInATypicalStretchMustDoSoOverThePath) {
+  ScanEvidence e = good();
+  e.snr = 2.11;
+  e.expected_correlation = 0.795;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"below_noise"});
+  e.expected_correlation = 0.82;  // √(2/3) = 0.816
+  EXPECT_EQ(codes(e), std::vector<std::string>{"noisy_texture"});
+  e.expected_correlation = ScanEvidence::kUnknown;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"noisy_texture"});
+  // The length's error takes its share of the correlation, which is no noise.
+  e.expected_correlation = 0.795;
+  e.stretch_correlation = 0.96;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"noisy_texture"});
+}
+
 TEST(JudgeScan, AForceAtTheEndOfItsRangeLimits) {
   ScanEvidence e = good();
   e.force_limited_share = 0.03;
