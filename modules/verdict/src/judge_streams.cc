@@ -23,7 +23,10 @@ constexpr double kScaleAllowed = 0.005;        // what markers, camera and accel
 constexpr double kScale_sigmas = 3.3;          // one good scan in a thousand
 constexpr double kScaleDoubtful_sigmas = 2.6;  // one in a hundred
 constexpr double kAxes_chi2 = 27.9;            // 9 degrees of freedom, one in a thousand
-constexpr double kUnrelated_sigma = 0.5;       // two of it are the whole scale
+// Peaks that were cut off and restored are another motion too, of the accelerometer alone: its own axes say less then.
+constexpr double kCutPeaks_share = 0.01;
+constexpr double kAxesOfCutPeaks_chi2 = 2.0 * kAxes_chi2;
+constexpr double kUnrelated_sigma = 0.5;  // two of it are the whole scale
 // Twenty times what a calibrated sensor has: heights would have that error in their gain.
 constexpr double kUnexplainedMotion_share = 0.2;
 constexpr double kNoise_ratio = 4.0;  // of the tracker, found over stated
@@ -102,7 +105,16 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
                                                  : "nearly as well")));
   }
   const double axes_chi2 = std::fmax(e.tracker_axes_chi2, e.accel_axes_chi2);
-  if (axes_chi2 > kAxes_chi2) {
+  const bool by_cut_peaks = e.clipped_share > kCutPeaks_share && !(e.tracker_axes_chi2 > kAxes_chi2) &&
+                            e.accel_axes_chi2 <= kAxesOfCutPeaks_chi2;
+  if (axes_chi2 > kAxes_chi2 && by_cut_peaks) {
+    out.push_back(
+        make_verdict("peaks_clipped",
+                     fmt::format("{:.2g} % of the accelerometer's samples are at the end of its range, and its motion "
+                                 "differs from the tracker's (χ² = {:.0f}, where 9 is expected): heights may be too "
+                                 "small",
+                                 100.0 * e.clipped_share, axes_chi2)));
+  } else if (axes_chi2 > kAxes_chi2) {
     out.push_back(make_verdict("motions_disagree",
                                fmt::format("tracker and accelerometer show different motions: χ² = {:.0f} for an error "
                                            "of their axes and scales, where 9 is expected",

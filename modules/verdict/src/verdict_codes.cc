@@ -35,6 +35,7 @@ constexpr VerdictCode kCodes[] = {
     {"poses_outlying", kLimited, "check the tracker's calibration, and what shakes or hides the markers"},
     {"tracker_repeats", kInvalid, "check that the tracker's export has all of its poses"},
     {"clipped", kInvalid, "scan slower or with less force, or use an accelerometer with a wider range"},
+    {"peaks_clipped", kLimited, "scan slower or with less force, or use an accelerometer with a wider range"},
     {"accel_filtered", kLimited,
      "switch off the sensor's low-pass and any averaging, or set them above the surface's vibrations; if there are "
      "none, "

@@ -59,6 +59,23 @@ std::vector<std::string> codes(const ScanEvidence& evidence) {
 
 TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
 
+// Restored peaks differ from the tracker's motion by themselves, as in scan 1000068 of the bench (r = 0.93); wrong axes
+// differ much more, or the tracker's own axes do.
+TEST(JudgeScan, CutPeaksAreNoWrongAxes) {
+  ScanEvidence e = good();
+  e.clipped_share = 0.019;
+  e.accel_axes_chi2 = 38.0;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"peaks_clipped"});
+  e.clipped_share = 0.0;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
+  e.clipped_share = 0.019;
+  e.accel_axes_chi2 = 400.0;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
+  e.accel_axes_chi2 = 38.0;
+  e.tracker_axes_chi2 = 38.0;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
+}
+
 // As in scan 431000050 of the second bench, on glass at r = 0.32.
 TEST(JudgeScan, ATextureThatStandsOutInATypicalStretchMustDoSoOverThePath) {
   ScanEvidence e = good();
