@@ -79,7 +79,7 @@ TEST(RefinePlacements, TheGradientIsThatOfTheCost) {
   for (double& value : state.tip_m) value = 50e-6 * random.normal();
   for (double& value : state.level_m) value = 10e-6 * random.normal();
   // No filter over points: the cost is then the sum over all points.
-  const std::vector<registration::Whitening> plain(4, {{}, 400e-12, 20e-6});
+  const std::vector<registration::Whitening> plain(4, registration::Whitening{{}, 400e-12, {20e-6}});
   const registration::FacetHeights heights = problem.heights(state);
   ASSERT_EQ(heights.count, heights.d_m.size());
   const registration::Equations equations = problem.equations(state, heights, plain);
