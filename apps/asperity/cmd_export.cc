@@ -14,6 +14,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
+#include "asperity/profile/read_heights.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/session/check_exportable.h"
 #include "asperity/session/export_files.h"
@@ -34,7 +35,7 @@ class ExportCommand : public Command {
     require(
         parser().add_option("OUT", source_,
                             "What register, paint, process or area wrote, a scene.json, a mesh, a *.texture.json, or a "
-                            "file of heights (x3p, sdf, gsf)"));
+                            "file of heights that `roughness` reads"));
     require(
         parser().add_option(
             "--to", format_,
@@ -58,10 +59,14 @@ class ExportCommand : public Command {
         ->suggest(length_unit_names());
   }
 
-  std::vector<ConfigField> fields() override { return list_fields("", config_); }
+  std::vector<ConfigField> fields() override {
+    std::vector<ConfigField> all = list_fields("", config_);
+    for (ConfigField& field : list_fields("input", input_)) all.push_back(std::move(field));
+    return all;
+  }
 
   void apply_options() override {
-    if (!spacing_.empty()) spacing_m_ = length_option_m("--spacing", spacing_);
+    if (!spacing_.empty()) input_.spacing_m = length_option_m("--spacing", spacing_);
     if (!rate_.empty()) config_.stroke.rate_Hz = number_option("--rate", rate_, "Hz", 1.0, 1e6);
     if (!speed_.empty()) config_.stroke.speed_mps = speed_option_mps("--speed", speed_);
   }
@@ -84,7 +89,7 @@ class ExportCommand : public Command {
     observer.update("reading", 0.0);
     reads(source_);
     ExportResult heights;
-    if (heights_as) heights = export_heights(source_, *heights_as, {.spacing_m = spacing_m_}, observer);
+    if (heights_as) heights = export_heights(source_, *heights_as, input_, observer);
     const ExportResult result =
         name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_)) ||
                 (!heights.files.empty() && holds_no_texture(source_))
@@ -166,8 +171,8 @@ class ExportCommand : public Command {
   std::string rate_;
   std::string mesh_unit_;
   std::string spacing_;
-  double spacing_m_ = 0.0;
   ExportConfig config_;
+  ReadHeightsConfig input_;
 };
 
 }  // namespace

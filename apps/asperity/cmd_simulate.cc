@@ -39,6 +39,9 @@ class SimulateCommand : public Command {
         ->type_name("NAME|FILE")
         ->suggest(surfaces);
     parser()
+        .add_option("--spacing", spacing_, "Distance of the heights of a --surface FILE without positions, as a TIFF")
+        ->type_name("LENGTH");
+    parser()
         .add_option("--probe", probe_,
                     "open (the default: 16 bit, 4 kHz), or what (8 bit, 400 Hz: the probe of the thesis)")
         ->type_name("NAME")
@@ -87,6 +90,11 @@ class SimulateCommand : public Command {
   }
 
   void apply_options() override {
+    if (!spacing_.empty()) {
+      if (config_->surface.kind != SurfaceKind::kFile)
+        throw UsageError("--spacing: needs a file of heights as --surface");
+      config_->surface.file_spacing_m = length_option_m("--spacing", spacing_);
+    }
     if (mesh_.empty() && !(mesh_unit_.empty() && through_.empty()))
       throw UsageError(std::string(through_.empty() ? "--mesh-unit" : "--through") + " needs --mesh");
     if (!mesh_.empty()) {
@@ -164,6 +172,7 @@ class SimulateCommand : public Command {
   }
 
   std::string surface_ = "protoboard";
+  std::string spacing_;
   std::string probe_ = "open";
   std::string material_ = "stiff";
   std::string mesh_;

@@ -54,7 +54,10 @@ class Measurement {
       : file_(std::move(file)), settings_(settings), config_(config), with_figure_(with_figure) {}
 
   RoughnessFound measure() const {
-    if (file_ == "-") return of_heights(parse_heights(read_standard_input(), "standard input", settings_.input));
+    Problems problems;
+    if (file_ == "-")
+      return with(of_heights(parse_heights(read_standard_input(), "standard input", settings_.input, &problems)),
+                  problems);
     if (is_stroke_folder(file_)) {
       refuse_noise("a stroke");
       return of_stroke();
@@ -69,10 +72,21 @@ class Measurement {
     const fs::path profile = fs::path(file_) / "profile.csv";
     if (fs::is_directory(file_, error) && !fs::exists(profile, error))
       throw Error(printable(file_, 200) + ": is a folder without a profile.csv; name the file, or a result of process");
-    return of_heights(read_heights(fs::is_directory(file_, error) ? profile : fs::path(file_), settings_.input));
+    const fs::path read = fs::is_directory(file_, error) ? profile : fs::path(file_);
+    return with(of_heights(read_heights(read, settings_.input, &problems)), problems);
   }
 
  private:
+  // What the file's own checksums show comes before its values.
+  static RoughnessFound with(RoughnessFound found, const Problems& problems) {
+    for (auto problem = problems.rbegin(); problem != problems.rend(); ++problem)
+      found.text = "warning     " + printable(problem->message, 600) + "\n" + found.text;
+    if (!problems.empty()) found.json["problems"] = Json::array();
+    for (const Problem& problem : problems)
+      found.json["problems"].push_back({{"kind", problem.kind}, {"message", printable(problem.message, 600)}});
+    return found;
+  }
+
   RoughnessFound of_heights(const Heights& heights) const {
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       refuse_noise("a profile");

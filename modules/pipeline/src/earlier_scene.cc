@@ -5,10 +5,10 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/md5.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/scene/md5.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/scan_materials.h"
 #include "asperity/scene/write_scene.h"

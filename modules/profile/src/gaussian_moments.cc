@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include <Eigen/Core>
+
 #include "asperity/signal/spectrum.h"
 
 namespace asperity {
@@ -18,8 +20,7 @@ GaussianMoments::GaussianMoments(std::size_t count, double spacing_m, double wid
   }
   constexpr std::size_t kShort = 64;
   if (reach_ <= kShort) return;
-  padded_ = 1;
-  while (padded_ < count_ + reach_) padded_ *= 2;
+  padded_ = 2 * smooth_length((count_ + reach_ + 1) / 2);  // even: those are transformed fastest
   std::vector<double> wrapped(padded_, 0.0);
   // Correlation: the kernel is reversed. What wraps round meets the padding.
   for (std::size_t k = 0; k <= 2 * reach_; ++k) wrapped[(padded_ + reach_ - k) % padded_] += kernel_[k];
@@ -39,7 +40,14 @@ double GaussianMoments::total() const { return std::accumulate(kernel_.begin(), 
 std::vector<double> GaussianMoments::of(std::span<const double> v) const {
   std::vector<double> out(count_, 0.0);
   if (spectrum_.empty()) {
-    for (std::size_t i = 0; i < count_; ++i) out[i] = at(v, i);
+    // Of each the same sum in the same order; where the weight is whole, of all of them together.
+    const std::size_t first = std::min(reach_, count_), last = std::max(first, count_ - first);
+    for (std::size_t i = 0; i < first; ++i) out[i] = at(v, i);
+    for (std::size_t i = last; i < count_; ++i) out[i] = at(v, i);
+    const auto inside = static_cast<Eigen::Index>(last - first);
+    Eigen::Map<Eigen::ArrayXd> sums(out.data() + first, inside);
+    for (std::size_t k = 0; inside > 0 && k <= 2 * reach_; ++k)
+      sums += kernel_[k] * Eigen::Map<const Eigen::ArrayXd>(v.data() + first + k - reach_, inside);
     return out;
   }
   std::vector<double> padded(padded_, 0.0);

@@ -10,7 +10,11 @@ namespace asperity {
 // nearer to ends and gaps (z₊₁ − z₋₁) / (2 spacing), at them the difference to the one neighbour.
 std::vector<double> local_slopes(std::span<const double> height, double spacing);
 
-// The same along a stride, for columns of a map: `count` heights, each `stride` after the one before.
-void local_slopes(const double* height, std::size_t count, std::size_t stride, double spacing, double* slope);
+// The same into `slope`.
+void local_slopes(const double* height, std::size_t count, double spacing, double* slope);
+
+// The same of one row's heights along the columns of a map, row by row.
+void local_slopes_across(const double* height, std::size_t columns, std::size_t rows, std::size_t row, double spacing,
+                         double* slope);
 
 }  // namespace asperity

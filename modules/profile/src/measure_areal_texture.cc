@@ -56,32 +56,60 @@ void subtract_mean(ArealMap& map) {
   for (double& z : map.height_m) z -= sum / count;
 }
 
+// Powers of the position from −1 to 1.
+std::array<double, 5> powers_of(std::size_t i, std::size_t count) {
+  const double x = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+  return {1.0, x, x * x, x * x * x, x * x * x * x};
+}
+
+// Σ x^k and Σ x^k z over the heights of a row that are present.
+struct RowMoments {
+  std::array<double, 5> ones{};
+  std::array<double, 3> heights{};
+};
+
+RowMoments moments_of_row(const double* z, const std::vector<std::array<double, 5>>& x) {
+  RowMoments out;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::isnan(z[i])) continue;
+    for (std::size_t k = 0; k < out.ones.size(); ++k) out.ones[k] += x[i][k];
+    for (std::size_t k = 0; k < out.heights.size(); ++k) out.heights[k] += x[i][k] * z[i];
+  }
+  return out;
+}
+
 // The least-squares polynomial with `terms` of 1, x, y, x², xy, y², positions from −1 to 1; its coefficients.
 Eigen::VectorXd subtract_polynomial(ArealMap& map, Eigen::Index terms) {
-  const auto basis = [&](std::size_t i) {
-    const double x = 2.0 * static_cast<double>(i % map.columns) / static_cast<double>(map.columns - 1) - 1.0;
-    const double y = 2.0 * static_cast<double>(i / map.columns) / static_cast<double>(map.rows - 1) - 1.0;
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> all(terms);
-    const std::array<double, 6> values{1.0, x, y, x * x, x * y, y * y};
-    for (Eigen::Index t = 0; t < terms; ++t) all[t] = values[static_cast<std::size_t>(t)];
-    return all;
-  };
+  constexpr std::array<std::size_t, 6> kOfX{0, 1, 0, 2, 1, 0}, kOfY{0, 0, 1, 0, 1, 2};
+  std::vector<std::array<double, 5>> x;
+  for (std::size_t i = 0; i < map.columns; ++i) x.push_back(powers_of(i, map.columns));
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
-  for (std::size_t i = 0; i < map.height_m.size(); ++i) {
-    if (std::isnan(map.height_m[i])) continue;
-    const auto b = basis(i);
+  for (std::size_t row = 0; row < map.rows; ++row) {
+    const RowMoments moments = moments_of_row(&map.height_m[row * map.columns], x);
+    const std::array<double, 5> y = powers_of(row, map.rows);
     for (Eigen::Index t = 0; t < terms; ++t) {
-      normal.col(t) += b[t] * b;
-      right[t] += b[t] * map.height_m[i];
+      const auto a = static_cast<std::size_t>(t);
+      for (Eigen::Index u = 0; u < terms; ++u) {
+        const auto b = static_cast<std::size_t>(u);
+        normal(t, u) += y[kOfY[a] + kOfY[b]] * moments.ones[kOfX[a] + kOfX[b]];
+      }
+      right[t] += y[kOfY[a]] * moments.heights[kOfX[a]];
     }
   }
   const LeastSquares fit = least_squares(normal, right);
   if (fit.rank < terms)
     throw Error("areal roughness: the heights are on one line, which does not determine a plane or a quadric");
   const Eigen::VectorXd form = fit.x.col(0);
-  for (std::size_t i = 0; i < map.height_m.size(); ++i) {
-    if (!std::isnan(map.height_m[i])) map.height_m[i] -= basis(i).dot(form);
+  for (std::size_t row = 0; row < map.rows; ++row) {
+    std::array<double, 3> of_x{};
+    const std::array<double, 5> y = powers_of(row, map.rows);
+    for (Eigen::Index t = 0; t < terms; ++t) {
+      const auto a = static_cast<std::size_t>(t);
+      of_x[kOfX[a]] += form[t] * y[kOfY[a]];
+    }
+    double* z = &map.height_m[row * map.columns];
+    for (std::size_t i = 0; i < map.columns; ++i) z[i] -= of_x[0] + of_x[1] * x[i][1] + of_x[2] * x[i][2];
   }
   return form;
 }
@@ -130,20 +158,18 @@ void measure_heights(const ArealMap& map, ArealTextureResult& out) {
 }
 
 void measure_slopes(const ArealMap& map, ArealTextureResult& out) {
-  std::vector<double> along_x(map.height_m.size()), along_y(map.height_m.size());
-  for (std::size_t row = 0; row < map.rows; ++row) {
-    local_slopes(&map.height_m[row * map.columns], map.columns, 1, map.x_spacing_m, &along_x[row * map.columns]);
-  }
-  for (std::size_t column = 0; column < map.columns; ++column) {
-    local_slopes(&map.height_m[column], map.rows, map.columns, map.y_spacing_m, &along_y[column]);
-  }
+  std::vector<double> along_x(map.columns), along_y(map.columns);
   double squares = 0.0, larger = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < along_x.size(); ++i) {
-    const double square = along_x[i] * along_x[i] + along_y[i] * along_y[i];
-    if (std::isnan(square)) continue;
-    squares += square;
-    larger += square / (std::sqrt(1.0 + square) + 1.0);  // √(1 + s²) − 1
-    count += 1.0;
+  for (std::size_t row = 0; row < map.rows; ++row) {
+    local_slopes(&map.height_m[row * map.columns], map.columns, map.x_spacing_m, along_x.data());
+    local_slopes_across(map.height_m.data(), map.columns, map.rows, row, map.y_spacing_m, along_y.data());
+    for (std::size_t i = 0; i < map.columns; ++i) {
+      const double square = along_x[i] * along_x[i] + along_y[i] * along_y[i];
+      if (std::isnan(square)) continue;
+      squares += square;
+      larger += square / (std::sqrt(1.0 + square) + 1.0);  // √(1 + s²) − 1
+      count += 1.0;
+    }
   }
   if (count == 0.0) return;
   out.Sdq = std::sqrt(squares / count);
@@ -169,10 +195,10 @@ void measure_material(const ArealMap& map, ArealTextureResult& out) {
 void measure_direction(const ArealMap& map, ArealTextureResult& out) {
   if (!(out.Sq_m > 0.0)) return;
   constexpr double kMostStr = 0.5;  // above it the surface has no lay whose direction means something
-  const SurfaceDirection direction = surface_direction(map);
-  out.Sal_m = direction.shortest_m;
-  out.Str = direction.shortest_m / direction.longest_m;
-  if (!(out.Str > kMostStr) && !std::isnan(direction.shortest_m)) out.Std_rad = direction.lay_rad;
+  const CorrelationLengths lengths = correlation_lengths(map);
+  out.Sal_m = lengths.shortest_m;
+  out.Str = lengths.shortest_m / lengths.longest_m;
+  if (!(out.Str > kMostStr) && !std::isnan(lengths.shortest_m)) out.Std_rad = lay_direction_rad(map);
 }
 
 }  // namespace

@@ -211,9 +211,11 @@ void check_span(const Heights& heights, const std::string& name) {
 
 }  // namespace
 
-Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config,
+                      Problems* problems) {
   Heights out;
   if (auto file = parse_surface_file(text, name)) {
+    if (problems != nullptr) problems->insert(problems->end(), file->problems.begin(), file->problems.end());
     out = std::move(file->map);
   } else if (is_tiff(text)) {
     out = heights_of_tiff(text, name, config);
@@ -228,8 +230,12 @@ Heights parse_heights(std::string_view text, const std::string& name, const Read
   return out;
 }
 
-Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config) {
-  return parse_heights(read_file(path, kLargestFile_bytes), path.string(), config);
+Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config, Problems* problems) {
+  return parse_heights(read_file(path, kLargestFile_bytes), path.string(), config, problems);
 }
+
+bool is_stylus_table(std::string_view text) { return is_stylus_text(text); }
+
+bool is_decimal_comma_table(std::string_view text) { return is_decimal_comma_column(text); }
 
 }  // namespace asperity

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -144,6 +145,38 @@ TEST(ArealGaussian, AgreesWithTheDefinitionAndKeepsPlanes) {
       map_of(200, 200, 1e-6, 1e-6, [&](double x, double y) { return std::cos(k * (0.6 * x + 0.8 * y)); });
   const ArealMap half = gaussian_mean_surface(wave, 20e-6);
   for (std::size_t i = 60; i < 140; i += 7) EXPECT_NEAR(half.at(i, i + 3), 0.5 * wave.at(i, i + 3), 1e-4);
+}
+
+// A map without gaps against the weighted least squares of a plane by orthogonal decomposition, in the corners, at the
+// edges and inside; directly and by Fourier transforms.
+TEST(ArealGaussian, AgreesWithThePlaneOfTheDefinitionUpToTheCorners) {
+  Random random(11);
+  const ArealMap map = map_of(140, 75, 1e-6, 1.5e-6, [&](double x, double) { return 2e4 * x + random.normal(); });
+  const double alpha = std::sqrt(std::numbers::ln2 / pi);
+  for (const double cutoff_m : {20e-6, 80e-6}) {
+    const ArealMap smooth = gaussian_mean_surface(map, cutoff_m);
+    for (const auto& [column, row] : {std::pair<int, int>{0, 0}, {139, 74}, {0, 40}, {70, 74}, {5, 3}, {70, 37}}) {
+      std::vector<std::array<double, 4>> rows;
+      for (int r = 0; r < 75; ++r) {
+        for (int c = 0; c < 140; ++c) {
+          const double x = 1e-6 * (c - column) / cutoff_m, y = 1.5e-6 * (r - row) / cutoff_m;
+          const double w = std::exp(-0.5 * pi * (x * x + y * y) / (alpha * alpha));  // its root
+          rows.push_back({w, w * x, w * y, w * map.at(static_cast<std::size_t>(r), static_cast<std::size_t>(c))});
+        }
+      }
+      Eigen::MatrixXd A(static_cast<Eigen::Index>(rows.size()), 3);
+      Eigen::VectorXd b(A.rows());
+      for (Eigen::Index i = 0; i < A.rows(); ++i) {
+        const auto& one = rows[static_cast<std::size_t>(i)];
+        A.row(i) << one[0], one[1], one[2];
+        b[i] = one[3];
+      }
+      // The weight is cut off at 7e-7 of its peak.
+      EXPECT_NEAR(smooth.at(static_cast<std::size_t>(row), static_cast<std::size_t>(column)),
+                  A.householderQr().solve(b)[0], 2e-5)
+          << column << ' ' << row << ' ' << cutoff_m;
+    }
+  }
 }
 
 // The definition for a small map: weighted least squares of a quadric by orthogonal decomposition at every point, and

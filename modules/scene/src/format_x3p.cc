@@ -6,9 +6,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/little_endian.h"
+#include "asperity/base/md5.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
-#include "asperity/scene/md5.h"
 #include "stored_zip.h"
 
 namespace asperity {

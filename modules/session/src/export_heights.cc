@@ -35,8 +35,8 @@ std::string bytes_of(const ArealMap& map, HeightFile format) {
   return {};
 }
 
-ArealMap read_map(const fs::path& file, const ReadHeightsConfig& reading) {
-  Heights heights = read_heights(file, reading);
+ArealMap read_map(const fs::path& file, const ReadHeightsConfig& reading, Problems& problems) {
+  Heights heights = read_heights(file, reading, &problems);
   if (auto* map = std::get_if<ArealMap>(&heights)) return std::move(*map);
   auto& profile = std::get<HeightProfile>(heights);
   const std::size_t count = profile.height_m.size();
@@ -84,11 +84,13 @@ ExportResult export_heights(const fs::path& source, HeightFile format, const Rea
   const std::string ending = format == HeightFile::kX3p ? ".x3p" : format == HeightFile::kGsf ? ".gsf" : ".sdf";
   ExportResult out;
   if (holds_heights_alone(source)) {
-    out.files.push_back({source.stem().string() + ending, bytes_of(read_map(source, reading), format)});
+    out.files.push_back({source.stem().string() + ending, bytes_of(read_map(source, reading, out.problems), format)});
+    for (Problem& problem : out.problems) problem.kind = "warning";
     return out;
   }
   if (const fs::path profile = source / "profile.csv"; fs::is_directory(source) && fs::exists(profile))
-    out.files.push_back({"profile" + ending, bytes_of(read_map(profile, {.column = "height_m"}), format)});
+    out.files.push_back(
+        {"profile" + ending, bytes_of(read_map(profile, {.column = "height_m"}, out.problems), format)});
   if (fs::is_directory(source) && !fs::exists(source / "scene.json")) return out;
   std::set<std::string> used;
   for (const SceneObject& object : read_export_source(source, observer).objects) {

@@ -3,22 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/decode_text.h"
 #include "asperity/base/error.h"
 #include "asperity/base/read_areal_map.h"
+#include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/image/tiff_image.h"
+#include "asperity/profile/read_heights.h"
 #include "asperity/surface/parse_surface_file.h"
 
 namespace asperity {
 namespace {
 
 constexpr std::uint64_t kLimitBytes = std::uint64_t{64} << 20;
+constexpr double kSpacingOfHeights_m = 0.5e-6;  // of a column of heights where none is given
 
 // A relief of more than this is a wrong unit.
 constexpr double kGreatestHeight_m = 0.1;
@@ -137,22 +145,70 @@ std::unique_ptr<Surface> read_areal_relief(CsvReader& table, const SimulatedSurf
                       config);
 }
 
-// A profile or a map of an instrument's file.
-std::unique_ptr<Surface> instrument_relief(SurfaceFile file, const SimulatedSurfaceConfig& config) {
-  for (double& height_m : file.map.height_m) height_m *= config.file_scale;
-  if (!file.is_profile()) return areal_relief(std::move(file.map), config);
-  std::vector<double>& height_m = file.map.height_m;
+std::unique_ptr<Surface> profile_relief(std::vector<double> height_m, double spacing_m,
+                                        const SimulatedSurfaceConfig& config) {
   if (height_m.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
   for (std::size_t i = 0; i < height_m.size(); ++i) {
     const std::string where = fmt::format("{}: height {}", config.file, i + 1);
     if (std::isnan(height_m[i])) throw Error(where + " is missing");
     if (!is_plausible(height_m[i], height_m.front())) throw implausible(where, height_m[i], height_m.front());
   }
-  return std::make_unique<ProfileRelief>(std::move(height_m), file.map.x_spacing_m);
+  return std::make_unique<ProfileRelief>(std::move(height_m), spacing_m);
+}
+
+// A profile or a map of an instrument's file.
+std::unique_ptr<Surface> instrument_relief(SurfaceFile file, const SimulatedSurfaceConfig& config) {
+  for (double& height_m : file.map.height_m) height_m *= config.file_scale;
+  if (!file.is_profile()) return areal_relief(std::move(file.map), config);
+  return profile_relief(std::move(file.map.height_m), file.map.x_spacing_m, config);
+}
+
+std::unique_ptr<Surface> heights_relief(Heights heights, double scale, const SimulatedSurfaceConfig& config) {
+  auto* map = std::get_if<ArealMap>(&heights);
+  std::vector<double>& height_m = map != nullptr ? map->height_m : std::get<HeightProfile>(heights).height_m;
+  for (double& z : height_m) z *= scale;
+  if (map != nullptr) return areal_relief(std::move(*map), config);
+  return profile_relief(std::move(height_m), std::get<HeightProfile>(heights).spacing_m, config);
+}
+
+std::unique_ptr<Surface> tiff_relief(std::string_view bytes, const SimulatedSurfaceConfig& config) {
+  constexpr double kRead_m = 1e-9;  // small, so that counts are within what heights may be
+  ReadHeightsConfig reading;
+  reading.spacing_m = config.file_spacing_m;
+  reading.unit = HeightUnit::kNanometre;
+  return heights_relief(parse_heights(bytes, config.file, reading), config.file_unit_m / kRead_m * config.file_scale,
+                        config);
+}
+
+HeightUnit file_unit(const SimulatedSurfaceConfig& config) {
+  constexpr std::array<std::pair<double, HeightUnit>, 4> kUnits{{{1e-6, HeightUnit::kMicrometre},
+                                                                 {1e-3, HeightUnit::kMillimetre},
+                                                                 {1.0, HeightUnit::kMetre},
+                                                                 {1e-9, HeightUnit::kNanometre}}};
+  const auto found = std::find_if(kUnits.begin(), kUnits.end(), [&](const auto& unit) {
+    return std::abs(config.file_unit_m - unit.first) <= 1e-9 * unit.first;
+  });
+  if (found != kUnits.end()) return found->second;
+  throw Error(fmt::format("{}: surface.file_unit_m is {}; of this kind of table it may be 1e-9, 1e-6, 0.001 or 1",
+                          config.file, number_text(config.file_unit_m)));
+}
+
+// What the other commands read and a plain table is not.
+std::unique_ptr<Surface> table_relief(std::string_view text, double spacing_m, const SimulatedSurfaceConfig& config) {
+  const ReadHeightsConfig reading{spacing_m, {}, file_unit(config), config.file_units};
+  try {
+    return heights_relief(parse_heights(text, config.file, reading), config.file_scale, config);
+  } catch (const Error& error) {
+    std::string message = error.what();  // the reader names its own setting
+    if (const auto at = message.find("input.units"); at != std::string::npos)
+      message.replace(at, std::string_view("input.units").size(), "surface.file_units");
+    throw Error(message);
+  }
 }
 
 std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
   const std::size_t column = table.width() - 1;
+  const double spacing_m = config.file_spacing_m > 0.0 ? config.file_spacing_m : kSpacingOfHeights_m;
   const double scale = unit_m(table, column, config.file_unit_m) * config.file_scale;
   std::vector<double> position;
   std::vector<double> height_m;
@@ -165,7 +221,7 @@ std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSu
       throw implausible(fmt::format("{}:{}", config.file, table.line()), height_m.back(), height_m.front());
   }
   if (height_m.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
-  if (column == 0) return std::make_unique<ProfileRelief>(std::move(height_m), config.file_spacing_m);
+  if (column == 0) return std::make_unique<ProfileRelief>(std::move(height_m), spacing_m);
   const double first = position.front();
   const double step = (position.back() - first) / static_cast<double>(position.size() - 1);
   if (!(step > 0.0)) throw Error(fmt::format("{}: positions must rise", config.file));
@@ -182,12 +238,20 @@ std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSu
 
 std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
   if (config.file.empty()) throw Error("simulation.surface.file: empty, but surface.kind is \"file\"");
-  const std::string text = read_file(config.file, kLimitBytes);
-  if (auto file = parse_surface_file(text, config.file)) return instrument_relief(std::move(*file), config);
+  std::string bytes = read_file(config.file, kLimitBytes);
+  if (auto file = parse_surface_file(bytes, config.file)) return instrument_relief(std::move(*file), config);
+  if (is_tiff(bytes)) return tiff_relief(bytes, config);
+  const std::string text = decode_text(std::move(bytes), config.file).text;
+  const double spacing_m = config.file_spacing_m > 0.0 ? config.file_spacing_m : kSpacingOfHeights_m;
+  if (is_stylus_table(text)) return table_relief(text, spacing_m, config);
   CsvReader table(text, config.file, CsvHeader::kOptional);
   table.accept_unterminated();
+  if (table.find("s_m") && table.width() > 2) return table_relief(text, 0.0, config);  // a profile.csv
   if (table.width() > 3) table.fail("more than three columns");
-  return table.width() == 3 ? read_areal_relief(table, config) : read_profile_relief(table, config);
+  if (table.width() == 3) return read_areal_relief(table, config);
+  if (table.width() == 2 && config.file_spacing_m > 0.0 && is_decimal_comma_table(text))
+    return table_relief(text, spacing_m, config);
+  return read_profile_relief(table, config);
 }
 
 }  // namespace asperity

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
@@ -13,6 +15,7 @@
 namespace asperity {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -58,6 +61,74 @@ TEST_F(LoadSurface, TakesThePlaneFromAMap) {
   EXPECT_NEAR(surface->height_m(5e-6, 5e-6), -1e-6, 1e-12);
   EXPECT_NEAR(surface->height_m(2.5e-6, 0.0), 3.5e-6, 1e-12);
   EXPECT_NEAR(surface->height_m(10e-6, 10e-6), 8e-6, 1e-12);  // mirrored
+}
+
+// A TIFF by its specification (6.0): one strip of 16-bit counts, little-endian, its directory after them.
+std::string tiff_of(const std::vector<unsigned>& counts, unsigned columns, unsigned rows) {
+  std::string out("II*\0", 4);
+  const auto put = [&out](unsigned value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xffU);
+  };
+  put(8 + 2 * columns * rows, 4);
+  for (const unsigned count : counts) put(count, 2);
+  const std::vector<std::array<unsigned, 2>> fields{{256, columns}, {257, rows}, {258, 16},
+                                                    {259, 1},       {262, 1},    {273, 8},
+                                                    {277, 1},       {278, rows}, {279, 2 * columns * rows}};
+  put(static_cast<unsigned>(fields.size()), 2);
+  for (const auto& [tag, value] : fields) {
+    put(tag, 2);
+    put(4, 2);  // LONG
+    put(1, 4);
+    put(value, 4);
+  }
+  put(0, 4);
+  return out;
+}
+
+TEST_F(LoadSurface, ReadsATiffAtItsUnitAndSpacing) {
+  config_.file_spacing_m = 20e-6;
+  config_.file_unit_m = 2e-9;  // a height a count
+  // 3 x 3, counts 30000 + 500 x, a bump of 900 in the middle: the plane takes 100 of it and all of the slope.
+  const auto surface = load(tiff_of({30000, 30500, 31000, 30000, 31400, 31000, 30000, 30500, 31000}, 3, 3));
+  EXPECT_NEAR(surface->height_m(0.0, 0.0), 800 * 2e-9, 1e-15);
+  EXPECT_NEAR(surface->height_m(20e-6, 20e-6), -100 * 2e-9, 1e-15);
+  EXPECT_NEAR(surface->height_m(10e-6, 0.0), 350 * 2e-9, 1e-15);
+  config_.file_spacing_m = 0.0;
+  EXPECT_THAT(
+      [&] {
+        load(tiff_of({1, 2, 3, 4}, 2, 2));
+      },
+      ThrowsMessage<Error>(AllOf(HasSubstr("relief.csv"), HasSubstr("states no spacing"))));
+}
+
+TEST_F(LoadSurface, ReadsTablesOfStylusInstruments) {
+  // Heights 2, 4, 9 µm, mean 5; German, with header lines, Latin-1 and decimal commas.
+  for (const char* text : {"Messger\xe4t;T1\r\nx [mm];z [\xb5m]\r\n0,00;2,0\r\n0,02;4,0\r\n0,04;9,0\r\n",
+                           "Profile 1\nX\tZ\nmm\tum\n0.00\t2\n0.02\t4\n0.04\t9\n"}) {
+    const auto surface = load(text);
+    EXPECT_NEAR(surface->height_m(0.0, 0.0), -1e-6, 1e-15) << text;
+    EXPECT_NEAR(surface->height_m(20e-6, 0.0), 4e-6, 1e-15) << text;
+    EXPECT_NEAR(surface->height_m(-10e-6, 0.0), -2e-6, 1e-15) << text;
+  }
+  const auto map = load("x [mm];y [mm];z [nm]\n0;0;0\n0.01;0;0\n0;0.01;0\n0.01;0.01;4000\n");
+  EXPECT_NEAR(map->height_m(5e-6, 5e-6), 1e-6, 1e-15);  // the plane leaves ±1 µm of 4 at a corner
+  EXPECT_NEAR(map->height_m(5e-6, -5e-6), -1e-6, 1e-15);
+}
+
+TEST_F(LoadSurface, NamesTheSettingThatATableWithoutUnitsNeeds) {
+  const std::string text = "0.00;2\n0.02;4\n0.04;9\n";
+  EXPECT_THAT([&] { load(text); }, ThrowsMessage<Error>(HasSubstr("--set surface.file_units=mm,um")));
+  config_.file_units = "mm,um";
+  EXPECT_NEAR(load(text)->height_m(20e-6, 0.0), 4e-6, 1e-15);
+}
+
+TEST_F(LoadSurface, ReadsAColumnWithDecimalCommasAndAProfileOfAResult) {
+  EXPECT_NEAR(load("s_m,height_m,texture_m,texture_sigma_m\n0,7,1e-6,1e-7\n1e-3,7,2e-6,1e-7\n2e-3,7,6e-6,1e-7\n")
+                  ->height_m(1e-3, 0.0),
+              3e-6, 1e-15);
+  config_.file_spacing_m = 1e-3;
+  config_.file_unit_m = 1e-3;
+  EXPECT_NEAR(load("2,0\n4,5\n8,5\n")->height_m(1e-3, 0.0), 3.5e-3, 1e-15);
 }
 
 TEST_F(LoadSurface, NamesTheLineOfAFault) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "asperity/base/text.h"
@@ -62,6 +63,31 @@ SmdAxis parse_smd_axis(const std::vector<std::string_view>& words, const std::st
   return out;
 }
 
+// The sum of all bytes before it follows the third section. Whether the sum is modulo 65,535 or 65,536, and whether the
+// end of the section and of its line are in it, writers may see differently: any of these will do.
+void check_smd_sum(std::string_view bytes, std::size_t section_end, const std::string& name, Problems& problems) {
+  const std::string_view after = bytes.substr(section_end + 1);
+  const std::vector<std::string_view> words = smd_words(after.substr(0, after.find_first_of("\x03\x1a")));
+  std::string_view word = words.empty() ? std::string_view() : words.front();
+  while (word.starts_with('\n')) word.remove_prefix(1);
+  const auto stated = parse_int64(word.substr(0, word.find('\n')));
+  if (!stated) return;
+  std::uint64_t sum = 0;
+  for (const char c : bytes.substr(0, section_end)) sum += static_cast<unsigned char>(c);
+  constexpr std::uint64_t kModulus = 65535;
+  const std::uint64_t with_end = sum + static_cast<unsigned char>(kSectionEnd), with_return = with_end + '\r' + '\n';
+  for (const std::uint64_t one : {with_return, with_end + '\n', with_end, sum}) {
+    const auto is_stated = [&](std::uint64_t modulus) { return one % modulus == static_cast<std::uint64_t>(*stated); };
+    if (is_stated(kModulus) || is_stated(kModulus + 1)) return;
+  }
+  problems.push_back(
+      {"checksum",
+       fmt::format("{}: the sum of its bytes is {} (modulo {}), but it states {}: it was changed after it "
+                   "was written, or is damaged",
+                   name, (after.starts_with("\r\n") ? with_return : with_end + '\n') % kModulus, kModulus, *stated),
+       1});
+}
+
 }  // namespace
 
 bool is_smd(std::string_view bytes) {
@@ -71,12 +97,14 @@ bool is_smd(std::string_view bytes) {
 
 SurfaceFile parse_smd(std::string_view bytes, const std::string& name) {
   std::vector<std::string_view> sections;
+  std::size_t data_end = 0;
   for (std::size_t begin = 0; sections.size() < 3;) {
     const std::size_t end = bytes.find(kSectionEnd, begin);
     if (end == std::string_view::npos)
       throw Error(fmt::format("{}: ends in section {} of 3", name, sections.size() + 1));
     sections.push_back(bytes.substr(begin, end - begin));
     begin = end + 1;
+    data_end = end;
   }
   std::string_view header = sections[0];
   take_smd_line(header);  // the revision, and the file's own name
@@ -120,6 +148,7 @@ SurfaceFile parse_smd(std::string_view bytes, const std::string& name) {
     if (out.map.height_m.size() == z->count) throw Error(fmt::format("{}: more than {} heights", name, z->count));
     out.map.height_m.push_back(*value * z->scale * z->unit_m);
   }
+  check_smd_sum(bytes, data_end, name, out.problems);
   if (out.map.height_m.size() != z->count)
     throw Error(fmt::format("{}: {} heights where {} are stated", name, out.map.height_m.size(), z->count));
   return out;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <pugixml.hpp>
 
+#include "asperity/base/md5.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "surface_formats.h"
@@ -32,6 +34,8 @@ class ZipMembers {
   ~ZipMembers() { zip_discard(archive_); }
   ZipMembers(const ZipMembers&) = delete;
   ZipMembers& operator=(const ZipMembers&) = delete;
+
+  bool has(const std::string& member) const { return zip_name_locate(archive_, member.c_str(), 0) >= 0; }
 
   std::string read(const std::string& member, std::size_t most_bytes) const {
     zip_stat_t stat;
@@ -110,9 +114,50 @@ void take_heights(const std::string& data, const Axis& z, std::size_t count, con
     map.height_m.push_back(static_cast<double>(reader.take<Number>()) * step_m + z.offset_m);
 }
 
-void take_binary(const ZipMembers& members, const std::string& link, const Axis& z, std::size_t count,
-                 const std::string& name, ArealMap& map) {
-  const std::string data = members.read(link, count * sizeof(double));
+// The MD5 sum in a text, in small letters; nullopt for anything else.
+std::optional<std::string> stated_md5(std::string_view text) {
+  constexpr std::size_t kDigits = 32;
+  std::string out(trim(text));
+  for (char& c : out) c = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (out.size() != kDigits || out.find_first_not_of("0123456789abcdef") != std::string::npos) return {};
+  return out;
+}
+
+void compare_md5(std::string_view stated, std::string_view content, const std::string& what, const std::string& where,
+                 const std::string& name, Problems& problems) {
+  const auto sum = stated_md5(stated);
+  if (!sum) return;
+  const std::string has = md5_hex(content);
+  if (has == *sum) return;
+  problems.push_back(
+      {"checksum",
+       fmt::format("{}: {} has the MD5 sum {}, but {} states {}: it was changed after it was written, or "
+                   "is damaged",
+                   name, printable(what, 100), has, printable(where, 100), *sum),
+       1});
+}
+
+// Lines "sum *main.xml", or a sum alone.
+void check_main_xml(const ZipMembers& members, const pugi::xml_node& root, const std::string& xml,
+                    const std::string& name, Problems& problems) {
+  constexpr std::size_t kMost_bytes = 65536, kSum = 32;
+  std::string file(trim(root.child("Record4").child_value("ChecksumFile")));
+  if (file.empty()) file = "md5checksum.hex";
+  if (!members.has(file)) return;
+  const std::string content = members.read(file, kMost_bytes);
+  for (std::string_view rest = content; !rest.empty();) {
+    const std::string_view line = trim(rest.substr(0, rest.find('\n')));
+    rest.remove_prefix(
+        std::min(rest.size(), rest.find('\n') == std::string_view::npos ? rest.size() : rest.find('\n') + 1));
+    std::string_view of = trim(line.substr(std::min(kSum, line.size())));
+    if (of.starts_with('*')) of.remove_prefix(1);
+    if (of.starts_with("./")) of.remove_prefix(2);
+    if (of.empty() || of == "main.xml")
+      compare_md5(line.substr(0, std::min(kSum, line.size())), xml, "main.xml", file, name, problems);
+  }
+}
+
+void take_binary(const std::string& data, const Axis& z, std::size_t count, const std::string& name, ArealMap& map) {
   switch (z.data) {
     case 'I':
       return take_heights<std::int16_t>(data, z, count, name, map);
@@ -178,6 +223,7 @@ SurfaceFile parse_x3p(std::string_view bytes, const std::string& name) {
   const pugi::xml_node dimension = record.child("MatrixDimension");
   SurfaceFile out;
   out.format = "X3P";
+  check_main_xml(members, root, xml, name, out.problems);
   out.map.columns = size_of(dimension, "SizeX", name);
   out.map.rows = size_of(dimension, "SizeY", name);
   if (size_of(dimension, "SizeZ", name) != 1) throw Error(name + ": more than one layer (SizeZ); one is read");
@@ -191,11 +237,20 @@ SurfaceFile parse_x3p(std::string_view bytes, const std::string& name) {
   }
   const pugi::xml_node link = record.child("DataLink");
   if (link) {
-    take_binary(members, std::string(trim(link.child_value("PointDataLink"))), z, count, name, out.map);
+    const std::string points(trim(link.child_value("PointDataLink")));
+    const std::string data = members.read(points, count * sizeof(double));
+    compare_md5(link.child_value("MD5ChecksumPointData"), data, points, "MD5ChecksumPointData of main.xml", name,
+                out.problems);
+    take_binary(data, z, count, name, out.map);
     const std::string mask(trim(link.child_value("ValidPointsLink")));
     // Some writers fill up its end; one byte a point is more than any does.
     constexpr std::size_t kLeastMask_bytes = 4096;
-    if (!mask.empty()) take_mask(members.read(mask, std::max(count, kLeastMask_bytes)), name, out.map);
+    if (!mask.empty()) {
+      const std::string bits = members.read(mask, std::max(count, kLeastMask_bytes));
+      compare_md5(link.child_value("MD5ChecksumValidPoints"), bits, mask, "MD5ChecksumValidPoints of main.xml", name,
+                  out.problems);
+      take_mask(bits, name, out.map);
+    }
   } else {
     take_text(record.child("DataList"), z, count, name, out.map);
   }

@@ -203,6 +203,36 @@ TEST(SurfaceFile, X3pText) {
   EXPECT_TRUE(std::isnan(file->map.height_m[kMissing]));
 }
 
+// Sums by Python's hashlib of the same bytes.
+TEST(SurfaceFile, X3pChecksumsThatDoNotHoldAreProblems) {
+  const std::string of_data = "8dd6bb7329a71449b0a1b292b5999164", of_mask = "d1457b72c3fb323a2671125aef3eab5d",
+                    of_xml = "d3ec36de4909f139c815fc3fee22dba5";
+  const std::string link =
+      "<DataLink><PointDataLink>d</PointDataLink><MD5ChecksumPointData>8DD6BB7329A71449B0A1B292B5999164"
+      "</MD5ChecksumPointData><ValidPointsLink>m</ValidPointsLink><MD5ChecksumValidPoints>" +
+      of_mask + "</MD5ChecksumValidPoints></DataLink>";
+  const std::string xml = x3p_xml("I", "<Increment>1e-9</Increment>", link), data(12, '\0'), mask = "\x3f";
+  const auto problems_of = [](const std::vector<std::pair<std::string, std::string>>& members) {
+    return parse_surface_file(zip(members), "a.x3p")->problems;
+  };
+  for (const std::string& sum : {of_xml + " *main.xml\n", of_xml + " *./main.xml\r\n", of_xml, std::string("none\n")})
+    EXPECT_TRUE(problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}, {"md5checksum.hex", sum}}).empty()) << sum;
+  EXPECT_TRUE(problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}}).empty());
+
+  std::string changed = data;
+  changed[3] = 1;
+  const Problems of_all = problems_of(
+      {{"main.xml", xml + "\n"}, {"d", changed}, {"m", "\x3e"}, {"md5checksum.hex", of_xml + " *main.xml\n"}});
+  ASSERT_EQ(of_all.size(), 3U);
+  using testing::AllOf;
+  using testing::HasSubstr;
+  EXPECT_EQ(of_all[0].kind, "checksum");
+  EXPECT_THAT(of_all[0].message, AllOf(HasSubstr("a.x3p: main.xml has the MD5 sum f98090474ef218ebfd77980cd9a4c30c"),
+                                       HasSubstr("md5checksum.hex states " + of_xml)));
+  EXPECT_THAT(of_all[1].message, AllOf(HasSubstr("a.x3p: d has"), HasSubstr("states " + of_data)));
+  EXPECT_THAT(of_all[2].message, AllOf(HasSubstr("a.x3p: m has"), HasSubstr("states " + of_mask)));
+}
+
 std::string fault(const std::string& bytes) {
   try {
     if (!parse_surface_file(bytes, "f")) return "none";

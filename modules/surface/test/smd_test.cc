@@ -66,6 +66,19 @@ TEST(ParseSmd, NamesWhatIsWrong) {
   refuses(areal, "'SUR'");
 }
 
+TEST(ParseSmd, TheSumOfItsBytesIsCompared) {
+  EXPECT_TRUE(parse_surface_file(smd(), "s.smd")->problems.empty());
+  std::string changed = smd();
+  changed.replace(changed.find("1.262206"), 8, "1.262207");  // one more in the sum
+  const Problems problems = parse_surface_file(changed, "s.smd")->problems;
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].kind, "checksum");
+  EXPECT_THAT(problems[0].message,
+              testing::MatchesRegex("s.smd: the sum of its bytes is [0-9]+ .*it states [0-9]+: .*"));
+  const std::string without = smd().substr(0, smd().rfind('\x03', smd().rfind('\x03') - 1) + 1);
+  EXPECT_TRUE(parse_surface_file(without, "s.smd")->problems.empty()) << "no sum is stated";
+}
+
 // Cut anywhere before the end of the heights it is refused, or not known for one.
 TEST(ParseSmd, IsNotReadCut) {
   const std::string whole = smd();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/base/areal_map.h"
+#include "asperity/base/problem.h"
 
 namespace asperity {
 
@@ -55,10 +56,19 @@ using Heights = std::variant<HeightProfile, ArealMap>;
 //                              a word of the last header lines, as [µm] or (mm), else by `units`
 // Text is UTF-8, UTF-16 with a byte order mark, or Latin-1. Throws Error naming file, line and value for anything else,
 // infinite numbers, uneven positions, a spacing that is missing or contradicts s_m, 16 or more heights that span more
-// than a hundred times the length and width (another unit is meant), or a file of more than 512 MiB.
-Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {});
+// than a hundred times the length and width (another unit is meant), or a file of more than 512 MiB. A checksum that
+// does not hold is a problem ("checksum").
+Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {},
+                     Problems* problems = nullptr);
 
 // The same from text in memory; `name` is what messages call it.
-Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config = {});
+Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config = {},
+                      Problems* problems = nullptr);
+
+// Whether decoded text (base/decode_text.h) is a table of the last kind: for readers of plain tables of their own.
+bool is_stylus_table(std::string_view text);
+
+// Whether its lines are single numbers with decimal commas.
+bool is_decimal_comma_table(std::string_view text);
 
 }  // namespace asperity

@@ -11,6 +11,9 @@ namespace asperity {
 // conjugate). Any n, also prime, in O(n log n).
 std::vector<std::complex<double>> real_dft(std::span<const double> x);
 
+// The same of complex samples, for k = 0 … n − 1.
+std::vector<std::complex<double>> complex_dft(std::span<const std::complex<double>> x);
+
 // The n real samples whose real_dft is `half` (n/2 + 1 values). Throws Error if the size does not fit.
 std::vector<double> inverse_real_dft(std::span<const std::complex<double>> half, std::size_t n);
 

@@ -31,10 +31,11 @@ struct SimulatedSurfaceConfig {
   double slope = 1.0;     // sandpaper, clay pot: the waves' density falls as frequency^-slope
   std::int64_t seed = 0;  // sandpaper, clay pot: of the relief; 0: the simulation's
 
-  std::string file;                // file: a height CSV or areal map
-  double file_spacing_m = 0.5e-6;  // file with heights alone: their distance
-  double file_unit_m = 1e-6;       // file whose columns name no unit: that of the heights
-  double file_scale = 1.0;         // file: factor on the heights
+  std::string file;             // file: an instrument's file, a TIFF or a table (load_surface.h)
+  double file_spacing_m = 0.0;  // file with heights alone: their distance; 0: 0.5 µm, of a TIFF not given
+  double file_unit_m = 1e-6;    // file whose columns name no unit, and a TIFF: that of the heights
+  std::string file_units;       // file: of an instrument's table whose header lines state none, as mm,um
+  double file_scale = 1.0;      // file: factor on the heights
 
   template <class V>
   void visit(V& v) {
@@ -55,9 +56,12 @@ struct SimulatedSurfaceConfig {
     v.field("slope", slope, "sandpaper, clay_pot: the waves' density falls as frequency^-slope", {-4.0, 6.0});
     v.field("seed", seed, "sandpaper, clay_pot: of the relief, the same in several scans; 0: the simulation's",
             {0.0, 9e15});
-    v.field("file", file, "file: CSV of heights or areal map x_mm,y_mm,z_um");
-    v.field("file_spacing_m", file_spacing_m, "file with heights alone: their distance, m", {1e-9, 0.01});
-    v.field("file_unit_m", file_unit_m, "file whose columns name no unit: the unit of the heights, m", {1e-12, 10.0});
+    v.field("file", file, "file: heights of an instrument, a TIFF, or a table such as x_mm,y_mm,z_um");
+    v.field("file_spacing_m", file_spacing_m,
+            "file with heights alone: their distance, m; 0: 0.5 µm, and not given for a TIFF", {0.0, 0.01});
+    v.field("file_unit_m", file_unit_m, "file whose columns name no unit, and a TIFF: the unit of the heights, m",
+            {1e-12, 10.0});
+    v.field("file_units", file_units, "file: of a table's columns where no header line states them: mm,um or mm,mm,um");
     v.field("file_scale", file_scale, "file: factor on the heights", {-1e6, 1e6});
   }
 };

@@ -1,4 +1,4 @@
-#include "asperity/scene/md5.h"
+#include "asperity/base/md5.h"
 
 #include <array>
 #include <bit>
