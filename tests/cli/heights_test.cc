@@ -190,6 +190,23 @@ TEST_F(EveryHeightsFile, IsReadByEachCommandAsATiff) {
   for (const HeightsFile& file : tiffs()) check(file);
 }
 
+TEST_F(EveryHeightsFile, WarnsOfASumThatDoesNotHold) {
+  const std::string line = tables().back().content;  // an SMD, which states 0
+  write_text(at("line.smd"), line);
+  unsigned sum = 0;
+  for (const char c : line.substr(0, line.rfind('\3') + 1)) sum += static_cast<unsigned char>(c);
+  const std::string warning = fmt::format("the sum of its bytes is {} (modulo 65535), but it states 0",
+                                          (sum + static_cast<unsigned char>('\n')) % 65535);
+  EXPECT_THAT(cli::run({"roughness", at("line.smd")}).out, HasSubstr(warning));
+  const auto json = nlohmann::json::parse(cli::run({"roughness", at("line.smd"), "--json"}).out);
+  ASSERT_EQ(json.at("problems").size(), 1U);
+  EXPECT_EQ(json.at("problems")[0].at("kind"), "checksum");
+  const Outcome exported = cli::run({"export", at("line.smd"), "--to", "x3p", "-o", at("x")});
+  EXPECT_EQ(exported.code, 0);
+  EXPECT_THAT(exported.out, HasSubstr("warning: " + at("line.smd") + ": " + warning));
+  EXPECT_FALSE(nlohmann::json::parse(cli::run({"roughness", at("x/line.x3p"), "--json"}).out).contains("problems"));
+}
+
 TEST_F(EveryHeightsFile, OfATiffIsRefusedWithoutASpacing) {
   write_text(at("u16.tif"), tiff({16, 1}));
   for (const std::vector<std::string>& command :
