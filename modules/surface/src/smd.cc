@@ -80,11 +80,14 @@ void check_smd_sum(std::string_view bytes, std::size_t section_end, const std::s
     const auto is_stated = [&](std::uint64_t modulus) { return one % modulus == static_cast<std::uint64_t>(*stated); };
     if (is_stated(kModulus) || is_stated(kModulus + 1)) return;
   }
+  const std::uint64_t has = after.starts_with("\r\n") ? with_return
+                            : after.starts_with('\n') ? with_end + '\n'
+                                                      : with_end;
   problems.push_back(
       {"checksum",
        fmt::format("{}: the sum of its bytes is {} (modulo {}), but it states {}: it was changed after it "
                    "was written, or is damaged",
-                   name, (after.starts_with("\r\n") ? with_return : with_end + '\n') % kModulus, kModulus, *stated),
+                   name, has % kModulus, kModulus, *stated),
        1});
 }
 
