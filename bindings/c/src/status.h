@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,9 @@ asperity_status guarded(const Work& work) noexcept {
     return ASPERITY_BAD_ARGUMENT;
   } catch (const Error& fault) {
     set_last_error(fault.what());
+    return ASPERITY_BAD_FILE;
+  } catch (const std::filesystem::filesystem_error& fault) {
+    set_last_error(fault.path1().string() + ": " + fault.code().message());
     return ASPERITY_BAD_FILE;
   } catch (const std::length_error&) {
     set_last_error("a count is larger than any memory");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/text.h"
 #include "asperity/device/render_vibration.h"
 #include "status.h"
 
@@ -86,9 +87,9 @@ asperity_status asperity_rumble_create(double force_rate_Hz, double full_scale_N
   return guarded([&] {
     asperity_rumble*& out = there(rumble, "rumble");
     if (!(force_rate_Hz >= 400.0 && force_rate_Hz <= 20000.0))
-      throw BadArgument("force_rate_Hz is " + std::to_string(force_rate_Hz) + ", not from 400 to 20000");
+      throw BadArgument("force_rate_Hz is " + asperity::number_text(force_rate_Hz) + ", not from 400 to 20000");
     if (!(full_scale_N >= 0.001 && full_scale_N <= 1000.0))
-      throw BadArgument("full_scale_N is " + std::to_string(full_scale_N) + ", not from 0.001 to 1000");
+      throw BadArgument("full_scale_N is " + asperity::number_text(full_scale_N) + ", not from 0.001 to 1000");
     out = new asperity_rumble{{kHighPass_Hz, kSplit_Hz, force_rate_Hz}, full_scale_N, true};
   });
 }

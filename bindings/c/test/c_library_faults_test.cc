@@ -6,8 +6,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -186,6 +188,43 @@ TEST_F(CLibrary, ARefusedChangeChangesNothing) {
   EXPECT_EQ(force_N(), before_N);
 }
 
+// A plate of 60 by 20 in millimetres, read as metres; its longest edge is 60 mm if that is stated.
+TEST_F(CLibrary, AnImplausibleUnitIsAskedFor) {
+  const auto read = [&](const std::string& file, std::optional<double> unit_m) {
+    asperity_scene* scene = nullptr;
+    const asperity_status status = unit_m ? asperity_scene_read_with_unit(file.c_str(), *unit_m, &scene)
+                                          : asperity_scene_read(file.c_str(), &scene);
+    EXPECT_EQ(scene != nullptr, status == ASPERITY_OK);
+    std::array<double, 9> vertices_m{};
+    std::size_t vertices = 0, triangles = 0;
+    if (scene != nullptr) {
+      EXPECT_EQ(asperity_scene_mesh(scene, 0, vertices_m.data(), 3, &vertices, nullptr, 0, &triangles), ASPERITY_OK);
+    }
+    asperity_scene_free(scene);
+    return std::pair(status, vertices_m[3]);
+  };
+  const std::string in_mm = (folder_.path() / "plate.obj").string();
+  std::ofstream(in_mm) << "v 0 0 0\nv 60 0 0\nv 0 20 0\nf 1 2 3\n";
+  EXPECT_EQ(read(in_mm, std::nullopt).first, ASPERITY_BAD_FILE);
+  EXPECT_EQ(std::string(asperity_last_error()),
+            in_mm +
+                ": the mesh is 63.2 m large if its unit is a metre; state its unit: "
+                "asperity_scene_read_with_unit()");
+  EXPECT_EQ(read(in_mm, 1e-3), std::pair(ASPERITY_OK, 60e-3));
+  EXPECT_EQ(read(in_mm, 1.0), std::pair(ASPERITY_OK, 60.0));
+  const std::string tiny = (folder_.path() / "tiny.obj").string();
+  std::ofstream(tiny) << "v 0 0 0\nv 6e-4 0 0\nv 0 2e-4 0\nf 1 2 3\n";
+  EXPECT_EQ(read(tiny, std::nullopt).first, ASPERITY_BAD_FILE);
+  for (const double unit_m : {0.0, -1.0, 1e-300, 1e300, std::nan("")}) {
+    EXPECT_EQ(read(in_mm, unit_m).first, ASPERITY_BAD_ARGUMENT) << unit_m;
+    EXPECT_EQ(std::string(asperity_last_error()).substr(0, 10), "unit_m is ") << asperity_last_error();
+  }
+  EXPECT_EQ(asperity_scene_read_with_unit(in_mm.c_str(), 1.0, nullptr), ASPERITY_BAD_ARGUMENT);
+  asperity_scene* none = scene_;
+  EXPECT_EQ(asperity_scene_read_with_unit(nullptr, 1.0, &none), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+}
+
 // A program has no command line: errors name functions and parameters of this header.
 TEST_F(CLibrary, ErrorsNameNoOptionOfACommandLine) {
   const auto has_option = [] { return std::string(asperity_last_error()).find("--") != std::string::npos; };
@@ -198,12 +237,12 @@ TEST_F(CLibrary, ErrorsNameNoOptionOfACommandLine) {
       EXPECT_FALSE(has_option()) << asperity_last_error();
     }
   }
-  // A mesh of a size that a command asks the unit of, 60 m, and files that are none.
+  // A mesh of 60 m, whose unit is asked for, and files that are none.
   const std::string mesh = (folder_.path() / "large.obj").string();
   std::ofstream(mesh) << "v 0 0 0\nv 60 0 0\nv 0 20 0\nf 1 2 3\n";
   asperity_scene* large = nullptr;
-  EXPECT_EQ(asperity_scene_read(mesh.c_str(), &large), ASPERITY_OK) << asperity_last_error();
-  asperity_scene_free(large);
+  EXPECT_EQ(asperity_scene_read(mesh.c_str(), &large), ASPERITY_BAD_FILE);
+  EXPECT_FALSE(has_option()) << asperity_last_error();
   for (const char* content : {"{}", "v 1", "{\"format\": \"asperity-scene\", \"version\": 99}"}) {
     for (const char* name : {"bad.scene.json", "bad.obj", "bad.stl", "bad.glb"}) {
       const std::string file = (folder_.path() / name).string();
