@@ -21,6 +21,7 @@ namespace {
 using asperity::c_library::BadArgument;
 using asperity::c_library::guarded;
 using asperity::c_library::there;
+using asperity::c_library::within;
 
 template <class SceneHandle>  // of a constant scene: a constant object
 auto& object_of(SceneHandle* scene, std::size_t object) {
@@ -29,14 +30,6 @@ auto& object_of(SceneHandle* scene, std::size_t object) {
     throw BadArgument("object " + std::to_string(object) + ": the scene has " + std::to_string(of.objects.size()));
   }
   return of.objects[object];
-}
-
-double within(double value, const asperity::Range& range, const char* name) {
-  if (!(value >= range.low) || !(value <= range.high)) {
-    throw BadArgument(std::string(name) + " is " + asperity::number_text(value) + ", not from " +
-                      asperity::number_text(range.low) + " to " + asperity::number_text(range.high));
-  }
-  return value;
 }
 
 // What `work` refuses is the caller's argument, for the files have been read.

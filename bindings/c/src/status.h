@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <asperity_feel.h>
+#include "asperity/base/config.h"
 #include "asperity/base/error.h"
 
 namespace asperity::c_library {
@@ -50,6 +51,9 @@ asperity_status guarded(const Work& work) noexcept {
     return ASPERITY_INTERNAL;
   }
 }
+
+// Throws BadArgument for a number that is not in the range.
+double within(double value, const Range& range, const char* name);
 
 // Throws BadArgument for NULL.
 template <class T>

@@ -100,15 +100,13 @@ Rows place_rows(py::handle given, const char* name) {
   return rows;
 }
 
-Rows vertex_rows(py::handle given) {
-  Rows rows = place_rows(given, "vertices_m");
+void require_mesh_size(const Rows& rows) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : rows.all()) box.extend(vertex);
   if (!box.isEmpty() && box.diagonal().norm() < kSmallestMesh_m) {
     throw py::value_error("vertices_m: a mesh of " + number_text(box.diagonal().norm()) +
                           " m is not plausible: at least " + number_text(kSmallestMesh_m) + " m");
   }
-  return rows;
 }
 
 Eigen::Vector3d vector_of(py::handle given, const char* name) {

@@ -60,10 +60,11 @@ class Rows {
 // (n, 3) points or directions; throws ValueError also for a row that is not finite, which has no answer.
 Rows finite_rows(py::handle given, const char* name);
 
-// The same for places, which are within 1e6 m of the origin, and for the vertices of a mesh, which is at least 1e-9 m
-// large.
+// The same for places, which are within 1e6 m of the origin.
 Rows place_rows(py::handle given, const char* name);
-Rows vertex_rows(py::handle given);
+
+// Throws ValueError for vertices_m of a mesh that is smaller than 1e-9 m.
+void require_mesh_size(const Rows& rows);
 
 // Three numbers. Throws TypeError and ValueError.
 Eigen::Vector3d vector_of(py::handle given, const char* name);

@@ -20,9 +20,10 @@ namespace {
 
 Mesh make_mesh(py::handle vertices_m, py::handle triangles) {
   TriangleMesh out;
-  const Rows vertices = vertex_rows(vertices_m);
+  const Rows vertices = place_rows(vertices_m, "vertices_m");
   out.vertices_m.assign(vertices.all().begin(), vertices.all().end());
   out.triangles = triangles_of(triangles, vertices.size());
+  require_mesh_size(vertices);
   return interruptible([&](const Observer& observer) { return Mesh(std::move(out), observer); });
 }
 

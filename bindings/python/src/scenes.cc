@@ -36,10 +36,11 @@ namespace fs = std::filesystem;
 SharedScene scene_of_mesh(py::handle vertices_m, py::handle triangles) {
   Scene out;
   SceneObject& object = out.objects.emplace_back();
-  const Rows vertices = vertex_rows(vertices_m);
+  const Rows vertices = place_rows(vertices_m, "vertices_m");
   object.mesh_file = "mesh.obj";
   object.mesh.vertices.assign(vertices.all().begin(), vertices.all().end());
   object.mesh.triangles = triangles_of(triangles, vertices.size());
+  require_mesh_size(vertices);
   return SharedScene(std::move(out));
 }
 

@@ -76,7 +76,7 @@ std::string setting_text(const std::string& name, py::handle value) {
     for (const py::handle one : value) out += (out.size() > 1 ? ", " : "") + setting_text(name, one);
     return out + "]";
   }
-  if (PyUnicode_Check(value.ptr())) return utf8_of(value, name.c_str());
+  if (PyUnicode_Check(value.ptr())) return utf8_of(value, ("settings: " + printable(name)).c_str());
   if (py::hasattr(value, "__fspath__")) return value.cast<std::filesystem::path>().string();
   const py::module_ numbers = py::module_::import("numbers"), numpy = py::module_::import("numpy");
   const bool is_number = py::isinstance(value, numbers.attr("Real")) || py::isinstance(value, numpy.attr("bool_")) ||

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/session/texture_input.h"
 #include "asperity/texture/evaluate_height.h"
