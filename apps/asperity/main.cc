@@ -50,7 +50,8 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(texture));
     }
-    Parser& study = parser.add_subcommand("study", "Plan and run a study, and evaluate the answers of its participants");
+    Parser& study =
+        parser.add_subcommand("study", "Plan and run a study, and evaluate the answers of its participants");
     study.require_subcommand(1, 0);
     commands.push_back(make_study_plan(study));
     commands.push_back(make_study_run(study));
