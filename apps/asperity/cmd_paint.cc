@@ -17,7 +17,7 @@
 #include "asperity/json/config_json.h"
 #include "asperity/pipeline/earlier_scene.h"
 #include "asperity/scene/paint.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/session/paint_scene.h"
 #include "asperity/session/scene_folder.h"

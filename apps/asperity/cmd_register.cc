@@ -22,7 +22,7 @@
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/registration/manual_alignment.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/session/paint_scene.h"
 #include "asperity/session/register_input.h"

@@ -54,7 +54,8 @@ class SimulateCommand : public Command {
         .add_option("--mesh", mesh_, "A mesh to scan over; the surface is laid on it along the path")
         ->type_name("FILE");
     parser()
-        .add_option("--mesh-unit", mesh_unit_, "Unit of the mesh file: m (the default), mm or a length such as 0.06m")
+        .add_option("--mesh-unit", mesh_unit_,
+                    "Unit of the mesh file: m (the default of a mesh of 1 mm to 5 m), mm or a length such as 0.06m")
         ->type_name("UNIT")
         ->suggest(length_unit_names());
     parser()

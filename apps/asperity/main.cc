@@ -12,8 +12,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/geometry/mesh_unit.h"
+#include "asperity/import/stated_setting.h"
 #include "asperity/session/interrupt.h"
-#include "asperity/session/mesh_unit.h"
 #include "command.h"
 #include "command_examples.h"
 #include "commands.h"
@@ -49,7 +50,8 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(texture));
     }
-    Parser& study = parser.add_subcommand("study", "Plan and run a study, and evaluate the answers of its participants");
+    Parser& study =
+        parser.add_subcommand("study", "Plan and run a study, and evaluate the answers of its participants");
     study.require_subcommand(1, 0);
     commands.push_back(make_study_plan(study));
     commands.push_back(make_study_run(study));
@@ -108,10 +110,19 @@ int run_command(Command& command) {
     tell_failure(name + ": not enough memory");
   } catch (const UnlikelyMetres& error) {
     tell_failure(command.with_input(error.what() + mesh_unit_hint(error)));
+  } catch (const UnstatedSetting& error) {
+    tell_failure(command.with_input(std::string(error.what()) + ", as " + as_option(error.example())));
   } catch (const std::exception& error) {
     tell_failure(command.with_input(error.what()));
   }
   return kBadInput;
+}
+
+// Of each command as it is without other options.
+std::vector<CommandSettings> settings_of(const Program& program) {
+  std::vector<CommandSettings> out;
+  for (const auto& command : program.commands) out.push_back({command->parser().full_name(), command->fields()});
+  return out;
 }
 
 // What is printed where no command is given.
@@ -154,7 +165,8 @@ int parse_and_run(Program& program, int argc, char** argv) {
   if (line.kind == ParsedLine::Kind::kFault) return usage(line.text, line.command);
   if (line.kind == ParsedLine::Kind::kText) return print_text(line.text), kDone;
   if (program.manual) return print_text(manual_page(program.parser)), kDone;
-  if (!program.completion.empty()) return print_text(shell_completion(program.completion, program.parser)), kDone;
+  if (!program.completion.empty())
+    return print_text(shell_completion(program.completion, program.parser, settings_of(program))), kDone;
   for (const auto& command : program.commands) {
     if (command->parser().is_parsed()) return run_command(*command);
   }

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 import shells
 
@@ -26,6 +27,8 @@ ARGUMENTS = {
 }
 # Names of formats and such that are said in another way in the answer.
 ALIASES = {"aruco:NAME": "aruco:", "aruco:FILE.yml": "aruco:"}
+# Commands whose settings' values are compared, too.
+SETTINGS = ("process", "register", "simulate", "texture fit")
 # What only the studio has, as the answer says itself.
 NOT_HERE = {("feel", "--device"): {"mouse"}}
 # Lengths, addresses and comma lists beside which there are other values; these are offered.
@@ -102,6 +105,53 @@ def check(program, options, ask):
         yield f"only {with_values} options have values"
 
 
+def settings_of(program, command):
+    """{key: value} of --print-config, whose TOML is the oracle."""
+    run = subprocess.run([program.path, *command.split(), "--print-config"], check=True, stdout=subprocess.PIPE, text=True)
+    flat = {}
+
+    def add(before, table):
+        for key, value in table.items():
+            if isinstance(value, dict):
+                add(before + key + ".", value)
+            else:
+                flat[before + key] = value
+
+    add("", tomllib.loads(run.stdout))
+    return flat
+
+
+def check_settings(program, commands, ask):
+    """Faults of --set: the keys of each command, and of those that are named in SETTINGS the values."""
+    keys = {command: settings_of(program, command) for command in commands}
+    forms = ("--set ", "--set=")
+    lines = [f"asperity {command} {form}" for command in commands for form in forms]
+    for shell, answers in ask(lines).items():
+        for line, got in zip(lines, answers):
+            command = next(c for c in commands if line.startswith(f"asperity {c} --"))
+            wanted = {key + "=" for key in keys[command]}
+            if wanted and got != wanted:
+                yield f"{shell}: '{line}' offers {len(got)} keys, not the {len(wanted)} of --print-config: {sorted(got ^ wanted)[:5]}"
+    with_values = 0
+    for command in SETTINGS:
+        lines = [f"asperity {command} {form}{key}=" for key in keys[command] for form in forms]
+        by_shell = ask(lines)
+        for i, key in enumerate(keys[command]):
+            is_switch = isinstance(keys[command][key], bool)
+            refusal = "" if is_switch or not isinstance(keys[command][key], str) else program.answer(command, "--set", f"{key}={NONE}")
+            wanted = {"true", "false"} if is_switch else listed(refusal) if NONE in refusal else set()
+            with_values += bool(wanted)
+            for shell, answers in by_shell.items():
+                for got in answers[2 * i : 2 * i + 2]:
+                    if got != wanted:
+                        yield f"{shell}: {command} --set {key}= offers {sorted(got)}, not {sorted(wanted)}"
+    if with_values < 40:
+        yield f"only {with_values} settings have values"
+    for shell, answers in ask(["asperity process --set=method=fu", "asperity process --set profile.remove_noise=f"]).items():
+        if answers != [{"fused"}, {"false"}]:
+            yield f"{shell}: parts of a value: {answers}"
+
+
 def main():
     asperity = pathlib.Path(sys.argv[1]).resolve()
     installed = [shell for shell in ("bash", "zsh", "fish") if shutil.which(shell)]
@@ -114,7 +164,9 @@ def main():
         work = pathlib.Path(folder) / "work"
         work.mkdir()
         ask = lambda lines: {shell: shells.offered(shell, scripts[shell], lines) for shell in installed}
-        faults = list(check(Program(asperity, work), options_of(manual), ask))
+        program, options = Program(asperity, work), options_of(manual)
+        faults = list(check(program, options, ask))
+        faults += check_settings(program, [command for command, names in options.items() if command and ["--set"] in names], ask)
         # A part of a value, and what is no value: commands and files.
         for line, expected in {"asperity export x --to sd": {"sdf", "sdf-binary"}, "asperity texture fi": {"fit"},
                                "asperity feel --device=repl": {"replay"}, "asperity bench rend": {"render"}, "asperity process --method -": None}.items():

@@ -42,7 +42,7 @@ function compadd() {
   done
   return found
 }
-function compset() { [[ $2 == '*=' ]] && PREFIX=${PREFIX#*=} || PREFIX=${PREFIX##*:} }
+function compset() { [[ $2 == '*:' ]] && PREFIX=${PREFIX##*:} || PREFIX=${PREFIX#$2} }
 function _files() { print -rn -- FILES$'\x1f' }
 source $1
 while IFS= read -r -d '' line; do
@@ -79,6 +79,7 @@ def offered(shell, script, lines):
     with tempfile.TemporaryDirectory() as empty:
         out = subprocess.run(["fish", "--no-config", "-c", f"source {shlex.quote(str(script))}\n{commands}"],
                              cwd=empty, check=True, stdout=subprocess.PIPE, text=True).stdout
-    # A word, a tab, its description. With --option= the option is part of the word.
-    return [{word.split("\t")[0].rsplit("=", 1)[-1] for word in one.strip("\n").splitlines() if word}
-            for one in out.split("\0")[:-1]]
+    # A word, a tab, its description. What is before the last = on the line is part of the word.
+    before = [line.split(" ")[-1].rpartition("=") for line in lines]
+    return [{word.split("\t")[0].removeprefix(begin + equals) for word in one.strip("\n").splitlines() if word}
+            for one, (begin, equals, _end) in zip(out.split("\0")[:-1], before)]

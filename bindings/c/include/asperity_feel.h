@@ -63,10 +63,16 @@ ASPERITY_FEEL_API const char *asperity_feel_version(void);
 /* Objects with textures and materials. */
 typedef struct asperity_scene asperity_scene;
 
-/* A *.scene.json with all files that it names, or a mesh (OBJ, PLY, STL, OFF, glTF), in metres and without textures. */
+/* A *.scene.json with all files that it names, or a mesh (OBJ, PLY, STL, OFF, glTF), in metres and without textures.
+ * ASPERITY_BAD_FILE for a mesh that does not state its unit (glTF does) and would be larger than 5 m or smaller than
+ * 1 mm: its unit is probably another, which the next function states. */
 ASPERITY_FEEL_API asperity_status asperity_scene_read(const char *path, asperity_scene **scene);
+/* The same with the length of the mesh's unit, m: 1e-9 to 1000, 0.001 for a mesh in millimetres, of any size. A
+ * *.scene.json states its unit: another one is ASPERITY_BAD_ARGUMENT. Since 1.2. */
+ASPERITY_FEEL_API asperity_status asperity_scene_read_with_unit(const char *path, double unit_m,
+                                                                asperity_scene **scene);
 /* One object of `vertex_count` points (x, y, z each) and `triangle_count` triangles (three indices each, from 0,
- * counter-clockwise seen from outside). Copied. */
+ * counter-clockwise seen from outside). Copied. Within 1e6 m of the origin, and at least 1e-9 m large. */
 ASPERITY_FEEL_API asperity_status asperity_scene_from_mesh(const double *vertices_m, size_t vertex_count,
                                                            const unsigned *triangles, size_t triangle_count,
                                                            asperity_scene **scene);
@@ -91,7 +97,10 @@ ASPERITY_FEEL_API asperity_status asperity_scene_set_pose(asperity_scene *scene,
                                                           const double position_m[3], const double rotation_wxyz[4]);
 /* Paints a *.texture.json along the shortest path over the surface through the points nearest to `points_m` (x, y, z
  * each, at least two, in the mesh's frame): onto the triangles within `half_width_m` of it, or for 0 onto those that it
- * touches and their neighbours. `index` from 0 names it: a texture of the same index of this object is replaced. */
+ * touches and their neighbours. `index` from 0 names it: a texture of the same index of this object is replaced. The
+ * texture's x is the distance along the path, 0 at the first point. In the profile that the texture was fitted to, x = 0
+ * is the beginning of the fitted window: at s = texture.start_m of the result.json of `asperity process`, at the height
+ * extra.fit.first_sample of a *.texture.json of `asperity texture fit`. */
 ASPERITY_FEEL_API asperity_status asperity_scene_paint(asperity_scene *scene, size_t object, const char *texture_path,
                                                        const double *points_m, size_t point_count, double half_width_m,
                                                        int index);

@@ -60,10 +60,14 @@ void step(asperity_feel& feel, const asperity::RenderModel& model, const std::by
   const asperity::ServoOutput output = asperity::render_step(model, feel.state, device);
   constexpr double kLongest_s = 1.0;  // between two steps
   if (in.dt_s > 0.0) feel.t_ns += static_cast<std::int64_t>(1e9 * std::min(in.dt_s, kLongest_s));
-  asperity_touch out;
+  const double vibration_N = feel.vibration.push(output.force_N, device.v_world_mps, feel.t_ns);
+  // In place where it can be: a copy would cost as much as all else around the step.
+  const bool in_place = touch_bytes >= sizeof(asperity_touch) && touch_bytes % alignof(asperity_touch) == 0;
+  asperity_touch other;
+  asperity_touch& out = in_place ? *reinterpret_cast<asperity_touch*>(touch) : other;
   out.size = touch_bytes;
-  fill(output, feel.vibration.push(output.force_N, device.v_world_mps, feel.t_ns), out);
-  std::memcpy(touch, &out, std::min(touch_bytes, sizeof out));
+  fill(output, vibration_N, out);
+  if (!in_place) std::memcpy(touch, &other, std::min(touch_bytes, sizeof other));
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/read_scene.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/texture/material_limits.h"
 #include "asperity/texture/texture_file.h"
@@ -18,6 +21,7 @@ namespace {
 using asperity::c_library::BadArgument;
 using asperity::c_library::guarded;
 using asperity::c_library::there;
+using asperity::c_library::within;
 
 template <class SceneHandle>  // of a constant scene: a constant object
 auto& object_of(SceneHandle* scene, std::size_t object) {
@@ -26,14 +30,6 @@ auto& object_of(SceneHandle* scene, std::size_t object) {
     throw BadArgument("object " + std::to_string(object) + ": the scene has " + std::to_string(of.objects.size()));
   }
   return of.objects[object];
-}
-
-double within(double value, const asperity::Range& range, const char* name) {
-  if (!(value >= range.low) || !(value <= range.high)) {
-    throw BadArgument(std::string(name) + " is " + std::to_string(value) + ", not from " + std::to_string(range.low) +
-                      " to " + std::to_string(range.high));
-  }
-  return value;
 }
 
 // What `work` refuses is the caller's argument, for the files have been read.
@@ -52,6 +48,10 @@ std::vector<Eigen::Vector3d> points_of(const double* numbers, std::size_t count,
   for (std::size_t i = 0; i < count; ++i) {
     out[i] = Eigen::Vector3d::Map(numbers + 3 * i);
     if (!out[i].allFinite()) throw BadArgument(std::string(name) + ": point " + std::to_string(i) + " is not finite");
+    if (out[i].cwiseAbs().maxCoeff() > asperity::kFurthestPlace_m) {
+      throw BadArgument(std::string(name) + ": point " + std::to_string(i) + " is beyond " +
+                        asperity::number_text(asperity::kFurthestPlace_m) + " m");
+    }
   }
   return out;
 }
@@ -64,7 +64,26 @@ asperity_status asperity_scene_read(const char* path, asperity_scene** scene) {
   if (scene != nullptr) *scene = nullptr;
   return guarded([&] {
     asperity_scene*& out = there(scene, "scene");
-    out = new asperity_scene{asperity::read_scene(&there(path, "path"))};
+    const char* file = &there(path, "path");
+    asperity::Scene read = asperity::read_scene(file);
+    try {
+      asperity::refuse_unlikely_metres(read.objects.front().mesh, file);
+    } catch (const asperity::UnlikelyMetres& fault) {
+      throw asperity::Error(std::string(fault.what()) + ": asperity_scene_read_with_unit()");
+    }
+    out = new asperity_scene{std::move(read)};
+  });
+}
+
+asperity_status asperity_scene_read_with_unit(const char* path, double unit_m, asperity_scene** scene) {
+  if (scene != nullptr) *scene = nullptr;
+  return guarded([&] {
+    asperity_scene*& out = there(scene, "scene");
+    const char* file = &there(path, "path");
+    within(unit_m, {1e-9, 1e3}, "unit_m");
+    asperity::Scene read = asperity::read_scene(file);
+    as_argument([&] { asperity::set_mesh_unit(read, file, unit_m); });
+    out = new asperity_scene{std::move(read)};
   });
 }
 
@@ -89,6 +108,10 @@ asperity_status asperity_scene_from_mesh(const double* vertices_m, size_t vertex
       }
     }
     if (triangle_count == 0) throw BadArgument("triangle_count is 0: nothing to feel");
+    if (const double size_m = asperity::size_of_mesh_m(object.mesh, 1.0); size_m < asperity::kSmallestMesh_m) {
+      throw BadArgument("vertices_m: a mesh of " + asperity::number_text(size_m) + " m is not plausible: at least " +
+                        asperity::number_text(asperity::kSmallestMesh_m) + " m");
+    }
     out = made.release();
   });
 }

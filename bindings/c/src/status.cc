@@ -36,6 +36,14 @@ void set_last_error(std::string_view text) noexcept {
   last_error[length] = '\0';
 }
 
+double within(double value, const Range& range, const char* name) {
+  if (!(value >= range.low) || !(value <= range.high)) {
+    throw BadArgument(std::string(name) + " is " + number_text(value) + ", not from " + number_text(range.low) +
+                      " to " + number_text(range.high));
+  }
+  return value;
+}
+
 }  // namespace asperity::c_library
 
 extern "C" {

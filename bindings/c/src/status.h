@@ -1,12 +1,14 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include <asperity_feel.h>
+#include "asperity/base/config.h"
 #include "asperity/base/error.h"
 
 namespace asperity::c_library {
@@ -32,6 +34,9 @@ asperity_status guarded(const Work& work) noexcept {
   } catch (const Error& fault) {
     set_last_error(fault.what());
     return ASPERITY_BAD_FILE;
+  } catch (const std::filesystem::filesystem_error& fault) {
+    set_last_error(fault.path1().string() + ": " + fault.code().message());
+    return ASPERITY_BAD_FILE;
   } catch (const std::length_error&) {
     set_last_error("a count is larger than any memory");
     return ASPERITY_BAD_ARGUMENT;
@@ -46,6 +51,9 @@ asperity_status guarded(const Work& work) noexcept {
     return ASPERITY_INTERNAL;
   }
 }
+
+// Throws BadArgument for a number that is not in the range.
+double within(double value, const Range& range, const char* name);
 
 // Throws BadArgument for NULL.
 template <class T>

@@ -16,10 +16,13 @@ namespace {
 using asperity::c_library::BadArgument;
 using asperity::c_library::guarded;
 using asperity::c_library::there;
+using asperity::c_library::within;
 
 constexpr double kHighPass_Hz = 20.0, kSplit_Hz = 100.0;  // as open_rumble_sink has them
 
 constexpr double kMost_N = 1000.0;  // no device has more: a tracker's jump must not ring for seconds
+
+constexpr asperity::Range kFullScale_N{0.001, 1000.0};
 
 double level_of(double share) noexcept { return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0; }
 
@@ -56,10 +59,10 @@ asperity_status asperity_vibration_samples(const double* force_N, size_t count, 
     if (count > 0) there(force_N, "force_N");
     if (count > PTRDIFF_MAX / sizeof(double)) throw std::length_error("count");
     asperity::VibrationConfig config;
-    config.servo_rate_Hz = force_rate_Hz;
-    config.audio_rate_Hz = sample_rate_Hz;
-    config.volume = volume;
-    config.full_scale_N = full_scale_N;
+    config.servo_rate_Hz = within(force_rate_Hz, {100.0, 4000.0}, "force_rate_Hz");
+    config.audio_rate_Hz = within(sample_rate_Hz, {8000.0, 192000.0}, "sample_rate_Hz");
+    config.volume = within(volume, {0.0, 1.0}, "volume");
+    config.full_scale_N = within(full_scale_N, kFullScale_N, "full_scale_N");
     std::vector<double> sound;
     try {
       sound = asperity::render_vibration({force_N, count}, config);
@@ -85,10 +88,8 @@ asperity_status asperity_rumble_create(double force_rate_Hz, double full_scale_N
   if (rumble != nullptr) *rumble = nullptr;
   return guarded([&] {
     asperity_rumble*& out = there(rumble, "rumble");
-    if (!(force_rate_Hz >= 400.0 && force_rate_Hz <= 20000.0))
-      throw BadArgument("force_rate_Hz is " + std::to_string(force_rate_Hz) + ", not from 400 to 20000");
-    if (!(full_scale_N >= 0.001 && full_scale_N <= 1000.0))
-      throw BadArgument("full_scale_N is " + std::to_string(full_scale_N) + ", not from 0.001 to 1000");
+    within(force_rate_Hz, {400.0, 20000.0}, "force_rate_Hz");
+    within(full_scale_N, kFullScale_N, "full_scale_N");
     out = new asperity_rumble{{kHighPass_Hz, kSplit_Hz, force_rate_Hz}, full_scale_N, true};
   });
 }

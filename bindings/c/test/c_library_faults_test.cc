@@ -6,8 +6,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -186,6 +188,82 @@ TEST_F(CLibrary, ARefusedChangeChangesNothing) {
   EXPECT_EQ(force_N(), before_N);
 }
 
+// A plate of 60 by 20 in millimetres, read as metres; its longest edge is 60 mm if that is stated.
+TEST_F(CLibrary, AnImplausibleUnitIsAskedFor) {
+  const auto read = [&](const std::string& file, std::optional<double> unit_m) {
+    asperity_scene* scene = nullptr;
+    const asperity_status status = unit_m ? asperity_scene_read_with_unit(file.c_str(), *unit_m, &scene)
+                                          : asperity_scene_read(file.c_str(), &scene);
+    EXPECT_EQ(scene != nullptr, status == ASPERITY_OK);
+    std::array<double, 9> vertices_m{};
+    std::size_t vertices = 0, triangles = 0;
+    if (scene != nullptr) {
+      EXPECT_EQ(asperity_scene_mesh(scene, 0, vertices_m.data(), 3, &vertices, nullptr, 0, &triangles), ASPERITY_OK);
+    }
+    asperity_scene_free(scene);
+    return std::pair(status, vertices_m[3]);
+  };
+  const std::string in_mm = (folder_.path() / "plate.obj").string();
+  std::ofstream(in_mm) << "v 0 0 0\nv 60 0 0\nv 0 20 0\nf 1 2 3\n";
+  EXPECT_EQ(read(in_mm, std::nullopt).first, ASPERITY_BAD_FILE);
+  EXPECT_EQ(std::string(asperity_last_error()),
+            in_mm +
+                ": the mesh is 63.2 m large if its unit is a metre; state its unit: "
+                "asperity_scene_read_with_unit()");
+  EXPECT_EQ(read(in_mm, 1e-3), std::pair(ASPERITY_OK, 60e-3));
+  EXPECT_EQ(read(in_mm, 1.0), std::pair(ASPERITY_OK, 60.0));
+  const std::string tiny = (folder_.path() / "tiny.obj").string();
+  std::ofstream(tiny) << "v 0 0 0\nv 6e-4 0 0\nv 0 2e-4 0\nf 1 2 3\n";
+  EXPECT_EQ(read(tiny, std::nullopt).first, ASPERITY_BAD_FILE);
+  for (const double unit_m : {0.0, -1.0, 1e-300, 1e300, std::nan("")}) {
+    EXPECT_EQ(read(in_mm, unit_m).first, ASPERITY_BAD_ARGUMENT) << unit_m;
+    EXPECT_EQ(std::string(asperity_last_error()).substr(0, 10), "unit_m is ") << asperity_last_error();
+  }
+  EXPECT_EQ(asperity_scene_read_with_unit(in_mm.c_str(), 1.0, nullptr), ASPERITY_BAD_ARGUMENT);
+  asperity_scene* none = scene_;
+  EXPECT_EQ(asperity_scene_read_with_unit(nullptr, 1.0, &none), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+}
+
+// Places and meshes that come of no object, and velocities and positions that a hand never has: named, or without an
+// effect on the steps that follow.
+TEST_F(CLibrary, NumbersThatAreNotPlausibleAreRefusedOrForgotten) {
+  const std::array<unsigned, 3> corners{0, 1, 2};
+  for (const auto& [side_m, text] :
+       {std::pair(1e300, "vertices_m: point 1 is beyond 1e+06 m"),
+        std::pair(1e-300, "vertices_m: a mesh of 0 m is not plausible: at least 1e-09 m")}) {
+    const std::array<double, 9> vertices_m{0.0, 0.0, 0.0, side_m, 0.0, 0.0, 0.0, side_m, 0.0};
+    asperity_scene* scene = scene_;
+    EXPECT_EQ(asperity_scene_from_mesh(vertices_m.data(), 3, corners.data(), 1, &scene), ASPERITY_BAD_ARGUMENT);
+    EXPECT_STREQ(asperity_last_error(), text);
+    EXPECT_EQ(scene, nullptr);
+  }
+  const std::array<double, 3> far_m{0.0, 1e300, 0.0};
+  const std::array<double, 4> turned{1.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(asperity_scene_set_pose(scene_, 0, far_m.data(), turned.data()), ASPERITY_BAD_ARGUMENT);
+  EXPECT_STREQ(asperity_last_error(), "position_m: point 0 is beyond 1e+06 m");
+  const std::string long_name(10000, 'x');
+  asperity_scene* none = nullptr;
+  EXPECT_EQ(asperity_scene_read((long_name + ".obj").c_str(), &none), ASPERITY_BAD_FILE);
+
+  // One step in the middle has the number; those 0.4 s later vibrate as they would without it, to 0.1 %.
+  const auto vibration_N = [&](double number, int axis) {
+    asperity_feel_reset(feel_);
+    std::vector<asperity_motion> motions = stroke(700);
+    motions[300].velocity_mps[axis] = number;
+    std::vector<asperity_touch> touches(motions.size());
+    for (asperity_touch& touch : touches) asperity_touch_init(&touch, sizeof touch);
+    EXPECT_EQ(asperity_feel_steps(feel_, motions.data(), touches.data(), touches.size()), ASPERITY_OK);
+    for (const asperity_touch& touch : touches) EXPECT_LE(std::abs(touch.vibration_N), 100.0) << number;
+    return touches.back().vibration_N;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const double usual_N = vibration_N(0.0, axis);
+    for (const double number : {1e300, -1e300, 1e9, std::nan(""), std::numeric_limits<double>::infinity()})
+      EXPECT_NEAR(vibration_N(number, axis), usual_N, 1e-3 * std::abs(usual_N)) << number << " along " << axis;
+  }
+}
+
 // A program has no command line: errors name functions and parameters of this header.
 TEST_F(CLibrary, ErrorsNameNoOptionOfACommandLine) {
   const auto has_option = [] { return std::string(asperity_last_error()).find("--") != std::string::npos; };
@@ -198,12 +276,25 @@ TEST_F(CLibrary, ErrorsNameNoOptionOfACommandLine) {
       EXPECT_FALSE(has_option()) << asperity_last_error();
     }
   }
-  // A mesh of a size that a command asks the unit of, 60 m, and files that are none.
+  // A mesh of 60 m, whose unit is asked for, and files that are none.
   const std::string mesh = (folder_.path() / "large.obj").string();
   std::ofstream(mesh) << "v 0 0 0\nv 60 0 0\nv 0 20 0\nf 1 2 3\n";
   asperity_scene* large = nullptr;
-  EXPECT_EQ(asperity_scene_read(mesh.c_str(), &large), ASPERITY_OK) << asperity_last_error();
-  asperity_scene_free(large);
+  EXPECT_EQ(asperity_scene_read(mesh.c_str(), &large), ASPERITY_BAD_FILE);
+  EXPECT_FALSE(has_option()) << asperity_last_error();
+  // Of a function that passes them on: their names in the header.
+  const std::array<double, 4> forces{};
+  std::size_t samples = 0;
+  const auto sound = [&](double force_rate_Hz, double sample_rate_Hz, double volume, double full_scale_N) {
+    EXPECT_EQ(asperity_vibration_samples(forces.data(), 4, force_rate_Hz, sample_rate_Hz, volume, full_scale_N, nullptr,
+                                         0, &samples),
+              ASPERITY_BAD_ARGUMENT);
+    return std::string(asperity_last_error());
+  };
+  EXPECT_EQ(sound(1.0, 48000.0, 1.0, 1.0), "force_rate_Hz is 1, not from 100 to 4000");
+  EXPECT_EQ(sound(1000.0, 1.0, 1.0, 1.0), "sample_rate_Hz is 1, not from 8000 to 192000");
+  EXPECT_EQ(sound(1000.0, 48000.0, 2.0, 1.0), "volume is 2, not from 0 to 1");
+  EXPECT_EQ(sound(1000.0, 48000.0, 1.0, 1e300), "full_scale_N is 1e+300, not from 0.001 to 1000");
   for (const char* content : {"{}", "v 1", "{\"format\": \"asperity-scene\", \"version\": 99}"}) {
     for (const char* name : {"bad.scene.json", "bad.obj", "bad.stl", "bad.glb"}) {
       const std::string file = (folder_.path() / name).string();

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/registration/manual_alignment.h"
 #include "inputs.h"
 #include "parts.h"
@@ -10,13 +11,15 @@ namespace asperity::python {
 namespace {
 
 py::tuple align_points(py::handle p_world_m, py::handle p_mesh_m) {
-  const Rows world(p_world_m, "p_world_m"), mesh(p_mesh_m, "p_mesh_m");
+  const Rows world = place_rows(p_world_m, "p_world_m"), mesh = place_rows(p_mesh_m, "p_mesh_m");
   const AbsoluteOrientation found = align_picked(world.all(), mesh.all());
   return py::make_tuple(matrix_of(found.T_b_a), found.rms_m);
 }
 
 py::array_t<double> align_by_hand(py::handle shift_m, py::handle rotation_deg) {
   const Eigen::Vector3d shift = vector_of(shift_m, "shift_m"), rotation = vector_of(rotation_deg, "rotation_deg");
+  for (const double coordinate_m : shift) within(coordinate_m, {-kFurthestPlace_m, kFurthestPlace_m}, "shift_m");
+  for (const double angle_deg : rotation) within(angle_deg, {-1e6, 1e6}, "rotation_deg");
   return matrix_of(align_manually({{shift.x(), shift.y(), shift.z()}, {rotation.x(), rotation.y(), rotation.z()}}));
 }
 

@@ -1,4 +1,5 @@
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
@@ -6,7 +7,9 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
+#include "asperity/import/stated_setting.h"
 #include "parts.h"
 #include "unmade.h"
 
@@ -37,8 +40,12 @@ void translate(std::exception_ptr thrown) {
     raise_error(std::string(error.what()) + (error.suggests() ? "" : "; asperity.settings() lists them all"));
   } catch (const UnlikelyMetres& error) {
     raise_error(error.what() + unit_hint(error));
+  } catch (const UnstatedSetting& error) {
+    raise_error(std::string(error.what()) + ", as " + as_argument(error.example()));
   } catch (const Error& error) {
     raise_error(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    raise_error(printable(error.path1().string(), 200) + ": " + error.code().message());
   } catch (const py::cast_error&) {  // where an object's owner is wanted; of pybind11, before it is its RuntimeError
     PyErr_SetString(PyExc_TypeError, kUnmade);
   }

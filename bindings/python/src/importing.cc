@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/import/import_mapped.h"
 #include "interruptible.h"
 #include "parts.h"
@@ -15,20 +16,20 @@ namespace {
 
 Recording import_recording(const std::filesystem::path& pose, const std::filesystem::path& imu,
                            const std::filesystem::path& gyro, const std::filesystem::path& force,
-                           const std::filesystem::path& object_pose, const py::dict& settings, bool unchecked) {
+                           const std::filesystem::path& object_pose, const Settings& settings, bool unchecked) {
   ImportSettings config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   return interruptible([&](const Observer& observer) {
     ImportTables tables = read_import_tables({pose, imu, gyro, force, object_pose}, config.mapping, {}, observer);
     const ImportedMotion motion = read_imported_motion(tables, config.mapping, observer);
     std::string doubts;
     for (const ImportDoubt& doubt : motion.checks.doubts)
-      doubts += (doubts.empty() ? "" : "\n") + doubt_text(doubt, tables);
+      doubts += (doubts.empty() ? "" : "\n") + doubt_text(doubt, tables, as_argument);
     if (!doubts.empty() && !unchecked) throw Error(doubts);
     observer.update("import", 0.95);
     Recording out = make_imported_recording(motion, tables, config.mapping, config.import);
     for (const ImportDoubt& doubt : motion.checks.doubts) {
-      out.problems.push_back({"implausible", doubt_text(doubt, tables), 1});
+      out.problems.push_back({"implausible", doubt_text(doubt, tables, as_argument), 1});
       ++out.info.problems["implausible"];
     }
     return out;
@@ -36,6 +37,17 @@ Recording import_recording(const std::filesystem::path& pose, const std::filesys
 }
 
 }  // namespace
+
+std::string as_argument(const StatedSetting& setting) {
+  const std::string& value = setting.value;
+  const bool is_text = value != "true" && value != "false" && !parse_double(value);
+  return "settings={'" + setting.path + "': " +
+         (is_text            ? "'" + value + "'"
+          : value == "true"  ? "True"
+          : value == "false" ? "False"
+                             : value) +
+         "}";
+}
 
 void add_importing(py::module_& module) {
   module.def(

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
 
 namespace asperity::python {
 
@@ -62,6 +63,17 @@ Numbers::Numbers(py::handle given, const char* name, Masked masked) : array_(dou
                           shape_text(array_));
 }
 
+Numbers places_of(py::handle given, const char* name) {
+  Numbers numbers(given, name);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!(std::abs(numbers.all()[i]) <= kFurthestPlace_m)) {
+      throw py::value_error(std::string(name) + ": value " + std::to_string(i) + " is " +
+                            number_text(numbers.all()[i]) + ", not within " + number_text(kFurthestPlace_m) + " m");
+    }
+  }
+  return numbers;
+}
+
 Rows::Rows(py::handle given, const char* name) : array_(doubles_of(given, name)) {
   if (array_.ndim() != 2 || array_.shape(1) != 3)
     throw py::value_error(std::string(name) + ": an array of shape (n, 3) is wanted, not " + shape_text(array_));
@@ -74,6 +86,27 @@ Rows finite_rows(py::handle given, const char* name) {
     if (!all[i].allFinite()) throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is not finite");
   }
   return rows;
+}
+
+Rows place_rows(py::handle given, const char* name) {
+  Rows rows = finite_rows(given, name);
+  const std::span<const Eigen::Vector3d> all = rows.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].cwiseAbs().maxCoeff() > kFurthestPlace_m) {
+      throw py::value_error(std::string(name) + ": row " + std::to_string(i) + " is beyond " +
+                            number_text(kFurthestPlace_m) + " m");
+    }
+  }
+  return rows;
+}
+
+void require_mesh_size(const Rows& rows) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : rows.all()) box.extend(vertex);
+  if (!box.isEmpty() && box.diagonal().norm() < kSmallestMesh_m) {
+    throw py::value_error("vertices_m: a mesh of " + number_text(box.diagonal().norm()) +
+                          " m is not plausible: at least " + number_text(kSmallestMesh_m) + " m");
+  }
 }
 
 Eigen::Vector3d vector_of(py::handle given, const char* name) {
@@ -90,6 +123,8 @@ Pose pose_of_matrix(py::handle given, const char* name) {
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(array.data());
   constexpr double kRounded = 1e-6;  // as a matrix of six digits has it
   const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
+  if (m.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kFurthestPlace_m)
+    throw py::value_error(std::string(name) + ": a translation beyond " + number_text(kFurthestPlace_m) + " m");
   const bool is_rotation = m.allFinite() && (rotation * rotation.transpose()).isIdentity(kRounded) &&
                            rotation.determinant() > 0.0 &&
                            m.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0), kRounded);

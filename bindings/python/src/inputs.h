@@ -39,6 +39,9 @@ class Numbers {
   py::array_t<double> array_;
 };
 
+// Coordinates in metres. Throws ValueError also for what is not finite or beyond 1e6 m.
+Numbers places_of(py::handle given, const char* name);
+
 // Rows of an array (n, 3).
 class Rows {
  public:
@@ -56,6 +59,12 @@ class Rows {
 
 // (n, 3) points or directions; throws ValueError also for a row that is not finite, which has no answer.
 Rows finite_rows(py::handle given, const char* name);
+
+// The same for places, which are within 1e6 m of the origin.
+Rows place_rows(py::handle given, const char* name);
+
+// Throws ValueError for vertices_m of a mesh that is smaller than 1e-9 m.
+void require_mesh_size(const Rows& rows);
 
 // Three numbers. Throws TypeError and ValueError.
 Eigen::Vector3d vector_of(py::handle given, const char* name);

@@ -6,8 +6,8 @@
 
 #include "arrays.h"
 #include "asperity/geometry/mesh_file.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/geometry/read_mesh.h"
-#include "asperity/session/mesh_unit.h"
 #include "inputs.h"
 #include "interruptible.h"
 #include "mesh.h"
@@ -20,9 +20,10 @@ namespace {
 
 Mesh make_mesh(py::handle vertices_m, py::handle triangles) {
   TriangleMesh out;
-  const Rows vertices(vertices_m, "vertices_m");
+  const Rows vertices = place_rows(vertices_m, "vertices_m");
   out.vertices_m.assign(vertices.all().begin(), vertices.all().end());
   out.triangles = triangles_of(triangles, vertices.size());
+  require_mesh_size(vertices);
   return interruptible([&](const Observer& observer) { return Mesh(std::move(out), observer); });
 }
 
@@ -37,7 +38,7 @@ Mesh read(const std::filesystem::path& file, std::optional<double> unit_m) {
 
 // Of each point the nearest of the mesh: points (n, 3), distances (n,), triangles (n,).
 py::tuple closest_points(const Mesh& mesh, py::handle points_m) {
-  const Rows points = finite_rows(points_m, "points_m");
+  const Rows points = place_rows(points_m, "points_m");
   py::array_t<double> nearest = rows_of_three(points.size()), distance = column_of(points.size());
   py::array_t<std::uint32_t> triangle = column_of<std::uint32_t>(points.size());
   auto* const nearest_m = reinterpret_cast<Eigen::Vector3d*>(nearest.mutable_data());
@@ -56,7 +57,7 @@ py::tuple closest_points(const Mesh& mesh, py::handle points_m) {
 
 // Of each ray the first hit: t (n,), inf without one, and triangles (n,).
 py::tuple cast_rays(const Mesh& mesh, py::handle origins_m, py::handle directions) {
-  const Rows origin = finite_rows(origins_m, "origins_m"), direction = finite_rows(directions, "directions");
+  const Rows origin = place_rows(origins_m, "origins_m"), direction = finite_rows(directions, "directions");
   if (origin.size() != direction.size()) throw py::value_error("directions: as many as origins_m are wanted");
   py::array_t<double> along = column_of(origin.size());
   py::array_t<std::uint32_t> triangle = column_of<std::uint32_t>(origin.size());

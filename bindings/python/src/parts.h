@@ -7,7 +7,9 @@
 
 #include "asperity/base/config.h"
 #include "asperity/import/mapping_config.h"
+#include "asperity/import/stated_setting.h"
 #include "asperity/recording/import_imu_pose.h"
+#include "named_arguments.h"
 
 // The parts of the Python module, each a file.
 namespace asperity::python {
@@ -41,15 +43,21 @@ struct ImportSettings {
   }
 };
 
-// A setting's value as text: True and False in lower case, tuples, lists and arrays in brackets, all else as Python
-// writes it.
-std::string setting_text(pybind11::handle value);
+// As Python states it: settings={'mapping.euler': 'zyx'}.
+std::string as_argument(const StatedSetting& setting);
+
+// The value of the setting `name` as text: True and False in lower case, tuples, lists and arrays in brackets, paths as
+// the file system has them, numbers as Python writes them. Throws TypeError for what is none of these.
+std::string setting_text(const std::string& name, pybind11::handle value);
 
 // Sets fields of `config` by their names; throws Error for one that there is not or that cannot be.
 template <class Config>
 void set_all(Config& config, const pybind11::dict& settings) {
   const std::vector<ConfigField> fields = list_fields("", config);
-  for (const auto& [name, value] : settings) set_field(fields, std::string(pybind11::str(name)), setting_text(value));
+  for (const auto& [key, value] : settings) {
+    const std::string name = utf8_of(key, "settings: a name");
+    set_field(fields, name, setting_text(name, value));
+  }
 }
 
 }  // namespace asperity::python

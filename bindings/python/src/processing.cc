@@ -34,15 +34,15 @@ struct Result {
   std::optional<MergeConfig> merged;  // of strokes: without a recording and a motion of its own
 };
 
-std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, const std::string& name,
-                                const py::dict& settings) {
+std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, const Text<"name">& name,
+                                const Settings& settings) {
   ProcessConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   auto out = std::make_shared<Result>();
   out->result =
       interruptible([&](const Observer& observer) { return process_recording(*recording, config, observer); });
   out->recording = std::move(recording);
-  out->name = name;
+  out->name = name.of;
   return out;
 }
 
@@ -59,9 +59,9 @@ void write(const Result& of, const std::filesystem::path& folder) {
 
 // Strokes over one line as one profile. Folders are recordings, or what `write` and `asperity process` have written
 // with profile.remove_noise off.
-std::shared_ptr<Result> merge(const std::vector<std::filesystem::path>& strokes, const py::dict& settings) {
+std::shared_ptr<Result> merge(const std::vector<std::filesystem::path>& strokes, const Settings& settings) {
   MergeConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   if (strokes.size() < 2) throw py::value_error("strokes: at least two are wanted");
   return interruptible([&](const Observer& observer) {
     std::vector<std::string> paths;

@@ -20,9 +20,9 @@ namespace asperity::python {
 
 namespace {
 
-py::object inspect(const Recording& recording, const py::dict& settings) {
+py::object inspect(const Recording& recording, const Settings& settings) {
   InspectConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   const std::string json = interruptible(
       [&](const Observer&) { return inspection_json(inspect_recording(recording, config)).dump_repaired(); });
   return py::module_::import("json").attr("loads")(json);

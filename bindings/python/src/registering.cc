@@ -50,9 +50,9 @@ Pose pose_of(py::handle given) {
 std::shared_ptr<Registration> register_recordings(const std::vector<std::filesystem::path>& scans,
                                                   const std::filesystem::path& mesh, std::optional<double> mesh_unit_m,
                                                   const std::optional<py::object>& guess,
-                                                  const std::vector<int>& placements, const py::dict& settings) {
+                                                  const std::vector<int>& placements, const Settings& settings) {
   RegisterConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   if (scans.empty()) throw py::value_error("scans: at least one is wanted");
   if (!placements.empty() && placements.size() != scans.size())
     throw py::value_error("placements: as many numbers as scans are wanted");

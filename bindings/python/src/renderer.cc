@@ -124,9 +124,9 @@ class TouchArrays {
 
 }  // namespace
 
-Renderer::Renderer(const SharedScene& scene, double rate_Hz, const py::dict& settings) : scene_(scene.of) {
+Renderer::Renderer(const SharedScene& scene, double rate_Hz, const Settings& settings) : scene_(scene.of) {
   config_.texture.rate_Hz = within(rate_Hz, {100.0, 20000.0}, "rate_Hz");
-  set_all(config_, settings);
+  set_all(config_, settings.of);
   model_ = std::make_unique<SnapshotExchange<const RenderModel>>(model_of(scene_, config_));
 }
 
@@ -189,10 +189,10 @@ py::dict Renderer::steps(py::handle positions_m, const std::optional<py::object>
   return out.named();
 }
 
-void Renderer::update(const std::optional<SharedScene>& scene, const py::dict& settings) {
+void Renderer::update(const std::optional<SharedScene>& scene, const Settings& settings) {
   const OneAtATime alone(updates_, "is updated");
   RenderConfig config = config_;
-  set_all(config, settings);
+  set_all(config, settings.of);
   const std::shared_ptr<const Scene> of = scene ? scene->of : scene_;
   std::unique_ptr<const RenderModel> model = model_of(of, config);
   config_ = config;

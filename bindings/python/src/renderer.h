@@ -13,6 +13,7 @@
 #include "asperity/render/render_model.h"
 #include "asperity/render/servo_output.h"
 #include "asperity/render/servo_state.h"
+#include "named_arguments.h"
 #include "shared_scene.h"
 
 namespace asperity::python {
@@ -28,14 +29,14 @@ struct Touch {
 // One tip over a scene. One thread steps at a time; any other may update().
 class Renderer {
  public:
-  Renderer(const SharedScene& scene, double rate_Hz, const py::dict& settings);
+  Renderer(const SharedScene& scene, double rate_Hz, const Settings& settings);
 
   // To a position, by a velocity or that from the last position. Throws RuntimeError while it steps elsewhere.
   Touch step(py::handle position_m, const std::optional<py::object>& velocity_mps, std::optional<double> dt_s);
   // Many, one after the other. What is broken off leaves the tip where it was before.
   py::dict steps(py::handle positions_m, const std::optional<py::object>& velocities_mps, std::optional<double> dt_s);
   // Another scene, or settings, from the next step on.
-  void update(const std::optional<SharedScene>& scene, const py::dict& settings);
+  void update(const std::optional<SharedScene>& scene, const Settings& settings);
   void reset();
 
   double rate_Hz() const { return config_.texture.rate_Hz; }

@@ -73,7 +73,7 @@ void add_rendering(py::module_& module) {
   py::class_<Renderer>(module, "Renderer",
                        "One tip over a scene: forces of its steps, at 1 kHz and faster. One thread steps at a time; "
                        "another raises RuntimeError. update() is for any thread.")
-      .def(py::init<const SharedScene&, double, const py::dict&>(), py::arg("scene"), py::arg("rate_Hz") = 1000.0,
+      .def(py::init<const SharedScene&, double, const Settings&>(), py::arg("scene"), py::arg("rate_Hz") = 1000.0,
            py::arg("settings") = py::dict(),
            "rate_Hz: of the steps, 100 to 20000. settings: those of settings('render'), such as tip_radius_m. Of the "
            "scene as it is now; update() takes a changed one.")

@@ -13,10 +13,10 @@ namespace asperity::python {
 
 namespace {
 
-py::dict roughness(py::handle height_m, double spacing_m, const py::dict& settings) {
+py::dict roughness(py::handle height_m, double spacing_m, const Settings& settings) {
   const Numbers heights(height_m, "height_m", Masked::kMissing);
   RoughnessConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   const RoughnessResult result = interruptible(
       [&](const Observer& observer) { return measure_roughness(heights.all(), spacing_m, config, observer); });
   py::dict out;

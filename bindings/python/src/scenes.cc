@@ -10,12 +10,14 @@
 #include "arrays.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/scene/lay_texture.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/read_scene.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/scene/write_scene.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/material_limits.h"
 #include "inputs.h"
 #include "interruptible.h"
@@ -34,10 +36,11 @@ namespace fs = std::filesystem;
 SharedScene scene_of_mesh(py::handle vertices_m, py::handle triangles) {
   Scene out;
   SceneObject& object = out.objects.emplace_back();
-  const Rows vertices(vertices_m, "vertices_m");
+  const Rows vertices = place_rows(vertices_m, "vertices_m");
   object.mesh_file = "mesh.obj";
   object.mesh.vertices.assign(vertices.all().begin(), vertices.all().end());
   object.mesh.triangles = triangles_of(triangles, vertices.size());
+  require_mesh_size(vertices);
   return SharedScene(std::move(out));
 }
 
@@ -75,7 +78,7 @@ void change(SharedScene& scene, const Work& work) {
 void paint_on(SharedScene& scene, const SharedTexture& texture, py::handle points_m, double half_width_m, int index,
               std::size_t object) {
   object_of(*scene.of, object);
-  const Rows points(points_m, "points_m");
+  const Rows points = place_rows(points_m, "points_m");
   HapticCoordinatesConfig config;
   config.half_width_mm = 1e3 * within(half_width_m, {0.0, 1e3}, "half_width_m");
   const std::shared_ptr<const Texture> given = texture.share();
@@ -138,9 +141,9 @@ Mesh mesh_of(const SharedScene& scene, std::size_t object) {
 void write(const SharedScene& scene, const fs::path& file) {
   if (file.extension() != ".json") throw py::value_error("file: a scene's file ends in .scene.json or .json");
   interruptible([&, of = scene.of](const Observer&) {
+    refuse_stranger(file, begins_as_scene);
     Scene out = *of;
-    for (SceneObject& object : out.objects)
-      object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+    name_meshes_obj(out);
     std::vector<SceneFile> files = format_scene_files(file.filename().string(), out);
     files.pop_back();
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -180,7 +183,7 @@ void add_scenes(py::module_& module) {
            "Move an object: (4, 4) from its mesh's frame to the world, m.")
       .def("write", &write, py::arg("file"),
            "Write it as FILE.scene.json with its meshes and textures beside it. A file of other content is not "
-           "replaced, but for FILE.scene.json itself.")
+           "replaced, but for FILE.scene.json itself, where it is a scene.")
       .def(
           "__len__", [](const SharedScene& scene) { return scene.of->objects.size(); }, "The number of objects.")
       .def("__repr__", [](const SharedScene& scene) {

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -6,7 +7,9 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include "asperity/base/text.h"
 #include "asperity/import/mapping_config.h"
 #include "asperity/pipeline/merge_results.h"
 #include "asperity/pipeline/process_config.h"
@@ -18,6 +21,7 @@
 #include "asperity/simulation/simulation_config.h"
 #include "asperity/texture/synthesize_stroke.h"
 #include "asperity/texture/texture_fit.h"
+#include "named_arguments.h"
 #include "parts.h"
 
 namespace asperity::python {
@@ -53,25 +57,36 @@ const std::map<std::string, std::function<py::dict()>>& lists() {
   return all;
 }
 
-py::dict settings_of(const std::string& of) {
+py::dict settings_of(const Text<"of">& given) {
+  const std::string& of = given.of;
   const auto found = lists().find(of);
   if (found != lists().end()) return found->second();
   std::string names;
   for (const auto& [name, list] : lists()) names += (names.empty() ? "" : ", ") + name;
-  throw py::value_error("of: '" + of + "' is not one of " + names);
+  throw py::value_error("of: '" + printable(of) + "' is not one of " + names);
 }
 
 }  // namespace
 
-std::string setting_text(py::handle value) {
-  const bool is_list = py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) ||
-                       (py::isinstance<py::array>(value) && py::len(value.attr("shape")) == 1);
-  if (is_list) {
+std::string setting_text(const std::string& name, py::handle value) {
+  const bool is_array = py::isinstance<py::array>(value);
+  const auto dimensions = is_array ? py::len(value.attr("shape")) : 0;
+  if (py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) || dimensions == 1) {
     std::string out = "[";
-    for (const py::handle one : value) out += (out.size() > 1 ? ", " : "") + setting_text(one);
+    for (const py::handle one : value) out += (out.size() > 1 ? ", " : "") + setting_text(name, one);
     return out + "]";
   }
-  const std::string text = py::str(value);  // of a bool of NumPy, too
+  if (PyUnicode_Check(value.ptr())) return utf8_of(value, ("settings: " + printable(name)).c_str());
+  if (py::hasattr(value, "__fspath__")) return value.cast<std::filesystem::path>().string();
+  const py::module_ numbers = py::module_::import("numbers"), numpy = py::module_::import("numpy");
+  const bool is_number = py::isinstance(value, numbers.attr("Real")) || py::isinstance(value, numpy.attr("bool_")) ||
+                         py::isinstance(value, py::module_::import("decimal").attr("Decimal")) ||
+                         (is_array && dimensions == 0);
+  if (!is_number) {
+    throw py::type_error("settings: " + printable(name) + ": a str, a number, True, False or a list is wanted, not " +
+                         std::string(py::str(py::type::handle_of(value).attr("__name__"))));
+  }
+  const std::string text = py::str(value);
   return text == "True" ? "true" : text == "False" ? "false" : text;
 }
 

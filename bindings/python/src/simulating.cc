@@ -33,23 +33,25 @@ std::string path_text(py::handle through_m) {
   return out;
 }
 
-SimulationConfig config_of(const std::string& surface, const std::string& probe, std::optional<double> speed_mps,
-                           std::int64_t seed, const py::dict& settings, const std::string& material,
-                           const std::optional<std::string>& object_motion) {
-  SimulationConfig config = make_simulation_config(surface, probe, material);
+SimulationConfig config_of(const std::filesystem::path& surface, const Text<"probe">& probe,
+                           std::optional<double> speed_mps, std::int64_t seed, const Settings& settings,
+                           const Text<"material">& material,
+                           const std::optional<Text<"object_motion">>& object_motion) {
+  SimulationConfig config = make_simulation_config(surface.string(), probe.of, material.of);
   py::dict named;
   if (speed_mps) named["hand.speed_mps"] = *speed_mps;
-  if (object_motion) named["object.motion"] = *object_motion;
+  if (object_motion) named["object.motion"] = object_motion->of;
   named["seed"] = seed;
   set_all(config, named);
-  set_all(config, settings);
+  set_all(config, settings.of);
   return config;
 }
 
-Recording simulate(const std::string& surface, const std::string& probe, std::optional<double> speed_mps,
-                   std::int64_t seed, const py::dict& settings, const std::string& material,
+Recording simulate(const std::filesystem::path& surface, const Text<"probe">& probe, std::optional<double> speed_mps,
+                   std::int64_t seed, const Settings& settings, const Text<"material">& material,
                    const std::optional<MeshOrFile>& mesh, std::optional<double> mesh_unit_m,
-                   const std::optional<py::object>& through_m, const std::optional<std::string>& object_motion) {
+                   const std::optional<py::object>& through_m,
+                   const std::optional<Text<"object_motion">>& object_motion) {
   SimulationConfig config = config_of(surface, probe, speed_mps, seed, settings, material, object_motion);
   if (!mesh) {
     if (mesh_unit_m) throw py::value_error("mesh_unit_m: there is no mesh");
@@ -75,15 +77,16 @@ Recording simulate(const std::string& surface, const std::string& probe, std::op
 }  // namespace
 
 void add_simulating(py::module_& module) {
-  module.def("simulate", &simulate, py::arg("surface") = "protoboard", py::arg("probe") = "open",
-             py::arg("speed_mps") = py::none(), py::arg("seed") = 1, py::arg("settings") = py::dict(),
-             py::arg("material") = "stiff", py::arg("mesh") = py::none(), py::arg("mesh_unit_m") = py::none(),
-             py::arg("through_m") = py::none(), py::arg("object_motion") = py::none(),
-             "A recording of the virtual bench, with its truth. surface: protoboard, sandpaper, sine, clay_pot, "
-             "cable_tie or a file of heights; probe: 'open' or 'what'; material: 'stiff', 'cork' or 'soft_rubber'. "
-             "mesh: a Mesh, or a file whose unit is mesh_unit_m (1), m, to scan over; through_m: (n, 3) points of the "
-             "path over it, in its frame, m, else one is chosen. object_motion: 'none', 'held' or 'turned'. settings: "
-             "those of settings('simulate'). The same seed gives the same recording.");
+  module.def(
+      "simulate", &simulate, py::arg("surface") = "protoboard", py::arg("probe") = "open",
+      py::arg("speed_mps") = py::none(), py::arg("seed") = 1, py::arg("settings") = py::dict(),
+      py::arg("material") = "stiff", py::arg("mesh") = py::none(), py::arg("mesh_unit_m") = py::none(),
+      py::arg("through_m") = py::none(), py::arg("object_motion") = py::none(),
+      "A recording of the virtual bench, with its truth. surface: protoboard, sandpaper, sine, clay_pot, "
+      "cable_tie or a file of heights; probe: 'open' or 'what'; material: 'stiff', 'cork' or 'soft_rubber'. "
+      "mesh: a Mesh, or a file to scan over, with mesh_unit_m as unit_m of read_mesh; through_m: (n, 3) points of "
+      "the path over it, in its frame, m, else one is chosen. object_motion: 'none', 'held' or 'turned'. settings: "
+      "those of settings('simulate'). The same seed gives the same recording.");
 }
 
 }  // namespace asperity::python

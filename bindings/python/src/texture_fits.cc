@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/session/texture_input.h"
 #include "asperity/texture/evaluate_height.h"
@@ -30,16 +31,16 @@ FittedModelChoice choice_of(const std::string& model, const std::vector<std::str
     const bool is_possible = std::find(possible.begin(), possible.end(), model) != possible.end();
     if (kFittedModelNames[k] == model && is_possible) return static_cast<FittedModelChoice>(k);
   }
-  throw py::value_error("model: '" + model + "' is not one of " + all);
+  throw py::value_error("model: '" + printable(model) + "' is not one of " + all);
 }
 
 // Settings with or without the model's group before them.
-TextureFitOptions options_of(const py::dict& settings, const std::string& group) {
+TextureFitOptions options_of(const Settings& settings, const std::string& group) {
   TextureFitOptions out;
   const std::vector<ConfigField> fields = list_fields("", out);
-  for (const auto& [key, value] : settings) {
-    const std::string name = py::str(key);
-    set_field(fields, name.find('.') == std::string::npos ? group + "." + name : name, setting_text(value));
+  for (const auto& [key, value] : settings.of) {
+    const std::string name = utf8_of(key, "settings: a name");
+    set_field(fields, name.find('.') == std::string::npos ? group + "." + name : name, setting_text(name, value));
   }
   return out;
 }
@@ -70,15 +71,15 @@ SharedTexture fit(TextureFitInput& input, FittedModelChoice choice, const Textur
 
 std::vector<double> copy_of(const Numbers& numbers) { return {numbers.all().begin(), numbers.all().end()}; }
 
-SharedTexture fit_heights(py::handle height_m, double spacing_m, const py::dict& settings, const std::string& model,
-                          const std::optional<py::object>& height_across_m, const std::string& name) {
-  const FittedModelChoice choice = choice_of(model, {"fourier1d", "fourier2d", "heightmap", "stochastic"});
-  const TextureFitOptions options = options_of(settings, model);
+SharedTexture fit_heights(py::handle height_m, double spacing_m, const Settings& settings, const Text<"model">& model,
+                          const std::optional<py::object>& height_across_m, const Text<"name">& name) {
+  const FittedModelChoice choice = choice_of(model.of, {"fourier1d", "fourier2d", "heightmap", "stochastic"});
+  const TextureFitOptions options = options_of(settings, model.of);
   HeightLine along{copy_of(Numbers(height_m, "height_m", Masked::kMissing)), spacing_m}, across{{}, spacing_m};
   TextureFitInput input;
   input.files = {kAlong};
   if (height_across_m) {
-    if (model != "fourier2d" && model != "heightmap")
+    if (model.of != "fourier2d" && model.of != "heightmap")
       throw py::value_error("height_across_m: for the models fourier2d and heightmap alone");
     across.height_m = copy_of(Numbers(*height_across_m, "height_across_m", Masked::kMissing));
     input.files.push_back(kAcross);
@@ -89,11 +90,11 @@ SharedTexture fit_heights(py::handle height_m, double spacing_m, const py::dict&
     const Periodicity found = find_periodicity(line.height_m, line.spacing_m, {});
     return found.periodic ? found.pitch_m : 0.0;
   };
-  return fit(input, choice, options, name);
+  return fit(input, choice, options, name.of);
 }
 
-SharedTexture fit_area(py::handle x_m, py::handle y_m, py::handle height_m, const py::dict& settings,
-                       const std::string& name) {
+SharedTexture fit_area(py::handle x_m, py::handle y_m, py::handle height_m, const Settings& settings,
+                       const Text<"name">& name) {
   const TextureFitOptions options = options_of(settings, "areal");
   const Numbers x(x_m, "x_m"), y(y_m, "y_m"), z(height_m, "height_m", Masked::kMissing);
   if (x.size() != z.size() || y.size() != z.size()) throw py::value_error("x_m, y_m: as many as height_m are wanted");
@@ -104,11 +105,11 @@ SharedTexture fit_area(py::handle x_m, py::handle y_m, py::handle height_m, cons
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = {x.all()[i], y.all()[i], z.all()[i]};
     return out;
   };
-  return fit(input, choice_of("areal", {"areal"}), options, name);
+  return fit(input, choice_of("areal", {"areal"}), options, name.of);
 }
 
 SharedTexture fit_vibration(py::handle acceleration_mps2, py::handle speed_mps, py::handle force_N, double rate_Hz,
-                            const py::dict& settings, const std::string& name) {
+                            const Settings& settings, const Text<"name">& name) {
   const TextureFitOptions options = options_of(settings, "autoregressive");
   SeriesTable table{copy_of(Numbers(acceleration_mps2, "acceleration_mps2")), copy_of(Numbers(speed_mps, "speed_mps")),
                     copy_of(Numbers(force_N, "force_N")), within(rate_Hz, {1.0, 1e7}, "rate_Hz")};
@@ -117,7 +118,7 @@ SharedTexture fit_vibration(py::handle acceleration_mps2, py::handle speed_mps, 
   TextureFitInput input;
   input.files = {kSeries};
   input.read_recording_or_series = [&](const std::string&) { return table; };
-  return fit(input, choice_of("autoregressive", {"autoregressive"}), options, name);
+  return fit(input, choice_of("autoregressive", {"autoregressive"}), options, name.of);
 }
 
 }  // namespace

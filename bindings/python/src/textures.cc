@@ -6,6 +6,7 @@
 #include "arrays.h"
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/material_limits.h"
 #include "asperity/texture/synthesize_stroke.h"
 #include "asperity/texture/texture_file.h"
@@ -22,7 +23,7 @@ namespace {
 
 // x along the scan path, y across it; a number serves for all.
 py::array_t<double> heights(const SharedTexture& texture, py::handle x_m, py::handle y_m) {
-  const Numbers along(x_m, "x_m"), across(y_m, "y_m");
+  const Numbers along = places_of(x_m, "x_m"), across = places_of(y_m, "y_m");
   if (across.size() != along.size() && across.size() != 1) throw py::value_error("y_m: one number, or as many as x_m");
   py::array_t<double> out = column_of(along.size());
   double* const heights_m = out.mutable_data();
@@ -43,9 +44,9 @@ py::array_t<double> heights(const SharedTexture& texture, py::handle x_m, py::ha
   return out;
 }
 
-py::array_t<double> vibration(const SharedTexture& texture, const py::dict& settings) {
+py::array_t<double> vibration(const SharedTexture& texture, const Settings& settings) {
   StrokeConfig config;
-  set_all(config, settings);
+  set_all(config, settings.of);
   return owned(interruptible(
       [&, of = texture.share()](const Observer& observer) { return synthesize_stroke(*of, config, observer); }));
 }
@@ -55,12 +56,22 @@ SharedTexture read(const std::filesystem::path& file) {
 }
 
 void write(const SharedTexture& texture, const std::filesystem::path& file) {
-  interruptible([&, of = texture.share()](const Observer&) { write_texture(file, *of); });
+  interruptible([&, of = texture.share()](const Observer&) {
+    refuse_stranger(file, begins_as_texture);
+    write_texture(file, *of);
+  });
+}
+
+// What JSON has no type for: mappings of other kinds, and numbers and arrays of NumPy.
+py::object plain(const py::object& value) {
+  if (py::hasattr(value, "tolist")) return value.attr("tolist")();
+  return dict_of(value, "content");
 }
 
 // What a texture's file holds, of models whose numbers are all in it.
-SharedTexture make_texture(const py::dict& content) {
-  const std::string text = py::str(py::module_::import("json").attr("dumps")(content));
+SharedTexture make_texture(const MappingArgument<"content">& content) {
+  const py::object dumps = py::module_::import("json").attr("dumps");
+  const std::string text = py::str(dumps(content.of, py::arg("default") = py::cpp_function(&plain)));
   return interruptible(
       [&](const Observer& observer) { return SharedTexture(parse_texture(text, "content", {}, observer)); });
 }
@@ -84,7 +95,7 @@ void add_textures(py::module_& module) {
                             "result or scene cannot be changed; a copy can.")
       .def_property(
           "name", [](const SharedTexture& t) { return t.get().name; },
-          [](SharedTexture& t, std::string name) { t.change().name = std::move(name); }, "Its name, for people.")
+          [](SharedTexture& t, Text<"name"> name) { t.change().name = std::move(name.of); }, "Its name, for people.")
       .def_property_readonly(
           "model", [](const SharedTexture& t) { return std::string(t.get().model_name()); },
           "The model's name: fourier1d, fourier2d, heightmap, areal, stochastic, autoregressive or "
@@ -111,14 +122,19 @@ void add_textures(py::module_& module) {
                              "All of *.texture.json as a dict, for make_texture; a copy. An image or a table beside "
                              "it is named only.")
       .def("heights", &heights, py::arg("x_m"), py::arg("y_m") = 0.0,
-           "Heights (n,), m, at x_m (n,) along the scan path and y_m (n,) or a number across it, m.")
+           "Heights (n,), m, at x_m (n,) along the scan path and y_m (n,) or a number across it, m. x = 0 is where the "
+           "window begins that was fitted: of fit_texture the height with the index content['extra']['fit']"
+           "['first_sample'] (fourier1d, and what is outer or pattern), of `process` and `merge` the s_m that "
+           "summary['texture']['start_m'] states. A texture of register_scans has x = 0 at the scan's s_m = 0, one of "
+           "fit_areal_texture the x_m and y_m of its points.")
       .def("vibration", &vibration, py::arg("settings") = py::dict(),
            "Acceleration (n,), m/s2, of a tool that strokes it: speed_mps, force_N, rate_Hz, duration_s, seed and "
            "others of settings('vibration').")
       .def(
           "copy", [](const SharedTexture& t) { return SharedTexture(t.get()); }, "A copy, which can be changed.")
       .def("write", &write, py::arg("file"),
-           "Write it as FILE.texture.json, with an image or a table beside it where the model has one.")
+           "Write it as FILE.texture.json, with an image or a table beside it where the model has one. A file of other "
+           "content is not replaced.")
       .def("__repr__", [](const SharedTexture& t) {
         return "<asperity.Texture '" + t.get().name + "', " + std::string(t.get().model_name()) + ">";
       });

@@ -91,6 +91,11 @@ internal static class CoreTest
         Throws<ArgumentException>(() => FeelScene.Read("a\0b"), "zero character");
         Throws<AsperityException>(() => FeelScene.FromMesh(new double[9], new uint[] { 0, 1, 3 }), "index 3");
         Throws<ArgumentException>(() => FeelScene.FromMesh(new double[8], new uint[3]), "8 numbers");
+        string inMillimetres = Path.GetTempFileName() + ".obj";
+        File.WriteAllText(inMillimetres, "v 0 0 0\nv 60 0 0\nv 0 20 0\nf 1 2 3\n");
+        Throws<AsperityException>(() => FeelScene.Read(inMillimetres), "63.2 m large if its unit is a metre; state its unit: FeelScene.Read(path, unit_m)");
+        using (FeelScene small = FeelScene.Read(inMillimetres, 1e-3)) Expect(small.ObjectCount == 1, "its unit is stated");
+        File.Delete(inMillimetres);
         using (FeelSettings settings = new FeelSettings())
         {
             Throws<AsperityException>(() => settings.Set("fiction", 0.3), "friction");
@@ -187,6 +192,35 @@ internal static class CoreTest
         }
     }
 
+    // The end is asked for on the loop's own thread, which cannot wait for itself.
+    private static void ALoopCanEndInItsOwnStep()
+    {
+        using (FeelScene plate = Plate())
+        {
+            HapticLoop loop = new HapticLoop(new FeelTip(plate, null), 1000.0);
+            int steps = 0;
+            using (ManualResetEvent disposed = new ManualResetEvent(false))
+            {
+                loop.OnStep = touch =>
+                {
+                    if (++steps < 20) return;
+                    loop.Dispose();
+                    disposed.Set();
+                };
+                loop.Start();
+                Expect(disposed.WaitOne(5000), "Dispose returns in OnStep");
+            }
+            long last = 0;
+            for (int i = 0; i < 50 && (last = loop.Steps) == 0; ++i) Thread.Sleep(10);
+            Thread.Sleep(50);
+            Expect(steps == 20 && loop.Steps == 20, "no step follows: " + steps + ", " + loop.Steps);
+            Near(loop.Last.Force_N.Length, 0.0, 0.0, "force after the end");
+            Expect(loop.Fault == null, "no fault: " + loop.Fault);
+            loop.Dispose();  // again, from outside
+            Expect(loop.Fault == null && last <= 20, "twice is allowed");
+        }
+    }
+
     private static void SoundHasTheForcesFrequency()
     {
         VibrationStream stream = new VibrationStream(1000.0, 512);
@@ -268,12 +302,52 @@ internal static class CoreTest
         return 2.0 * dot * u + (q[0] * q[0] - square) * v + 2.0 * q[0] * cross;
     }
 
+    private static void Write(string folder, string name, string text)
+    {
+        string file = Path.Combine(folder, name);
+        Directory.CreateDirectory(Path.GetDirectoryName(file));
+        File.WriteAllText(file, text);
+    }
+
+    // What a scene consists of, and nothing else that is beside it.
+    private static void ScenesNameTheirFiles(string folder)
+    {
+        Write(folder, "a.scene.json", "{\"mesh\": \"cup.obj\", \"covered\": \"covered.json\", \"textures\": [{\"index\": 1, \"file\": \"t/wood.texture.json\"}], " +
+            "\"extra\": {\"mesh\": \"private.txt\", \"n\": [1, -2.5e-3, true, null, \"\\u00e4\\n\"]}, " +
+            "\"objects\": [{\"mesh\": \"lid.gltf\", \"material\": \"map.json\", \"textures\": []}]}");
+        Write(folder, "cup.obj", "mtllib cup colours.mtl\nmtllib gone.mtl\nv 0 0 0\n");
+        Write(folder, "lid.gltf", "{\"buffers\": [{\"uri\": \"lid%20data.bin\"}, {\"uri\": \"data:;base64,AA==\"}]}");
+        Write(folder, "t/wood.texture.json", "{\"model\": \"heightmap\", \"heightmap\": {\"file\": \"wood.heights.png\"}}");
+        foreach (string name in new[] { "cup colours.mtl", "lid data.bin", "covered.json", "map.json", "t/wood.heights.png", "private.txt", "t/other.png" })
+            Write(folder, name, "{}");
+        string found = string.Join("|", Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "a.scene.json")));
+        Expect(found == "a.scene.json|covered.json|cup colours.mtl|cup.obj|lid data.bin|lid.gltf|map.json|t/wood.heights.png|t/wood.texture.json", found);
+        Write(folder, "mesh.scene.json", "{\"mesh\": \"cup.obj\"}");
+        foreach (string bad in new[] { "../private.txt", "t/../../private.txt", "/etc/hostname", "C:\\\\a.obj", "./cup.obj", "" })
+        {
+            Write(folder, "bad.scene.json", "{\"mesh\": \"" + bad + "\"}");
+            Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "bad.scene.json")), "not in the scene's folder");
+            Write(folder, "bad.texture.json", "{\"model\": \"areal\", \"areal\": {\"file\": \"../" + bad + "\"}}");
+            Write(folder, "worse.scene.json", "{\"mesh\": \"cup.obj\", \"textures\": [{\"file\": \"bad.texture.json\"}]}");
+            Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "worse.scene.json")), "not in the scene's folder");
+        }
+        foreach (string bad in new[] { "", "{", "[]", "{\"mesh\" \"a\"}", "{\"mesh\": \"\\q\"}", "{} x", new string('[', 100000), "{\"mesh\": \"a", "nope" })
+        {
+            Write(folder, "bad.scene.json", bad);
+            Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "bad.scene.json")), "bad.scene.json");
+        }
+    }
+
     private static void ScenesAreCopied(string file, string folder)
     {
+        string beside = Path.Combine(Path.GetDirectoryName(file), "private.txt");
+        File.WriteAllText(beside, "not the scene's");
         string first = Asperity.Feel.Editor.SceneImporter.CopyScene(file, folder);
         string second = Asperity.Feel.Editor.SceneImporter.CopyScene(file, folder);
+        File.Delete(beside);
         Expect(first != second, "what is there is kept: " + first + ", " + second);
         using (FeelScene copy = FeelScene.Read(Path.Combine(folder, second))) Expect(copy.ObjectCount >= 1, "the copy is whole");
+        Expect(!File.Exists(Path.Combine(folder, Path.GetDirectoryName(second), "private.txt")), "what the scene does not name is not copied");
     }
 
     private static int Main(string[] arguments)
@@ -283,10 +357,12 @@ internal static class CoreTest
         ErrorsAreExceptions();
         TracksAreContinuousAndGoStale();
         ALoopWithoutPositionsHasNoForce();
+        ALoopCanEndInItsOwnStep();
         SoundHasTheForcesFrequency();
         AForceThatRestsIsNoVibration();
         FramesAreReflections();
         ASceneIsReadShownAndFelt(arguments[0]);
+        ScenesNameTheirFiles(Path.Combine(arguments[1], "named"));
         ScenesAreCopied(arguments[0], arguments[1]);
         Console.WriteLine((checks - failed) + " of " + checks + " checks hold");
         return failed == 0 ? 0 : 1;

@@ -111,18 +111,21 @@ PoseStream with_rotations(const PoseStream& pose,
 // What else the poses' rotations may be.
 struct OtherRotation {
   std::string message;
-  std::string setting;
+  StatedSetting setting;
   Eigen::Quaterniond (*change)(const Eigen::Quaterniond&);
 };
 
 const std::array<OtherRotation, 3>& other_rotations() {
   static const std::array<OtherRotation, 3> kOthers{{
       // The cells c0 … c3 that were read as w, x, y, z are x, y, z, w.
-      {"the order of its cells is x, y, z, w", "--quaternion xyzw",
+      {"the order of its cells is x, y, z, w",
+       {"mapping.quaternion", "xyzw"},
        [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()); }},
-      {"the order of its cells is w, x, y, z", "--quaternion wxyz",
+      {"the order of its cells is w, x, y, z",
+       {"mapping.quaternion", "wxyz"},
        [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); }},
-      {"the rotations are from the world to the body", "--invert-rotation",
+      {"the rotations are from the world to the body",
+       {"mapping.invert_rotation", "true"},
        [](const Eigen::Quaterniond& q) { return q.conjugate(); }},
   }};
   return kOthers;
@@ -134,7 +137,7 @@ ImportDoubt rotated_sensor(const Eigen::Matrix3d& R, const StreamUnits& units) {
           fmt::format("the gyroscope's axes are not the body's: they are rotated by {:.1f}° against them",
                       Eigen::AngleAxisd(R).angle() * 57.29577951308232),
           {},
-          "--imu-axes " + axes_text(R * units.sensor_axes)};
+          {{"mapping.imu_axes", axes_text(R * units.sensor_axes)}}};
 }
 
 // A sensor whose axes are exchanged by R, or mirrored by −R: mirrored rates change their sign, so that both rotate
@@ -147,7 +150,7 @@ ImportDoubt exchanged_sensor(const ImportStreams& streams, const StreamUnits& un
           "the gyroscope's axes are not the body's: the body's x, y, z look like its " + axes_text(R) +
               (is_mirrored ? ", and like the accelerometer's " + axes_text(axes) : std::string()),
           {},
-          "--imu-axes " + axes_text(axes * units.sensor_axes),
+          {{"mapping.imu_axes", axes_text(axes * units.sensor_axes)}},
           {}};
 }
 
@@ -159,7 +162,7 @@ ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& 
             FileRole::kPose,
             "the poses and the gyroscope show different rotations; they agree if " + other.message,
             {},
-            other.setting};
+            {other.setting}};
   }
   const AxesChoice exchanged = best_axes(agreement, 1.0);
   if (agreement.cosine(exchanged.R) > kOtherFits) return exchanged_sensor(streams, units, exchanged.R);

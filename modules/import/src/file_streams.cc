@@ -146,7 +146,8 @@ class RotationReader {
       order_ = config.euler.empty() ? in.preset.euler : config.euler;
       axes_ = config.euler_axes;
       if (order_.empty()) {
-        throw Error(in.table.file + ": the order of the Euler angles is not known: state it, as --euler zyx");
+        throw UnstatedSetting(in.table.file + ": the order of the Euler angles is not known: state it",
+                              {"mapping.euler", "zyx"});
       }
     } else {
       throw Error(in.table.file + ": no columns are a rotation: qw qx qy qz, rx ry rz, vx vy vz or m11 … m33");

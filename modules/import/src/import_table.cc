@@ -133,13 +133,13 @@ ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& 
   if (find_meaning(out.map, "t") == nullptr) {
     out.rate_Hz = stated_Hz > 0.0 ? stated_Hz : out.preset.rate_Hz;
     if (out.rate_Hz <= 0.0) {
-      const char* option = role == FileRole::kPose   ? "--pose-file-rate"
-                           : role == FileRole::kImu  ? "--imu-rate"
-                           : role == FileRole::kGyro ? "--gyro-rate"
-                                                     : "--force-rate";
-      throw Error(fmt::format(
-          "{}: no column is a time: name it (t=NAME[ms] or t=#1[ms]), or state the rate of the rows, as {} 500",
-          table.file, option));
+      const char* of = role == FileRole::kPose   ? "pose"
+                       : role == FileRole::kImu  ? "imu"
+                       : role == FileRole::kGyro ? "gyro"
+                                                 : "force";
+      throw UnstatedSetting(
+          table.file + ": no column is a time: name it (t=NAME[ms] or t=#1[ms]), or state the rate of the rows",
+          {fmt::format("mapping.{}.rate_Hz", of), "500"});
     }
   }
   out.table = std::move(table);

@@ -132,7 +132,7 @@ std::string exchanged_columns(const ImportTable& table, ColumnGroup group, std::
 
 }  // namespace
 
-std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
+std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables, const SettingText& text_of) {
   const ImportTable* table = doubt.role == FileRole::kPose ? &*tables.pose : &*tables.imu;
   if (doubt.group == ColumnGroup::kRate && tables.gyro) table = &*tables.gyro;
   std::string names, stated, unit;
@@ -151,7 +151,12 @@ std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables) {
   }
   out += doubt.message;
   if (!doubt.unit.empty()) out += "; state " + stated;
-  if (!doubt.setting.empty()) out += "; state " + doubt.setting;
+  const std::string left_handed =
+      doubt.left_handed ? text_of({"mapping.left_handed", *doubt.left_handed ? "true" : "false"}) : "";
+  if (doubt.left_handed == true) out += "; where the poses' world is left-handed, state " + left_handed + " first";
+  for (std::size_t i = 0; i < doubt.settings.size(); ++i)
+    out += (i == 0 ? "; state " : " ") + text_of(doubt.settings[i]);
+  if (doubt.left_handed == false) out += ", or " + left_handed;
   if (!doubt.axes.empty()) out += "; state " + exchanged_columns(*table, doubt.group, doubt.axes);
   return out;
 }

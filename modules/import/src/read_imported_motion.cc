@@ -184,7 +184,7 @@ void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMo
                motion.up, config.up.empty() ? "taken by the preset" : "stated", motion.up_angle_rad * 57.29577951308232,
                estimate->name),
            {},
-           "--up " + estimate->name});
+           {{"mapping.up", estimate->name}}});
     }
   } else {
     motion.up_is_estimated = true;
@@ -248,19 +248,20 @@ void check_euler_order(const ImportTables& tables, const MappingConfig& config, 
        fmt::format("the gyroscope shows another rotation than Euler angles in this order (cosine {:.4f})",
                    motion.checks.rate_cosine),
        {},
-       fmt::format("--euler {} --euler-axes intrinsic", better)});
+       {{"mapping.euler", better}, {"mapping.euler_axes", "intrinsic"}}});
 }
 
 // What a doubt says to state may be stated already, and is then what is wrong.
 void compare_with_stated(const MappingConfig& config, std::vector<ImportDoubt>& doubts) {
   for (ImportDoubt& doubt : doubts) {
-    if (doubt.setting == "--invert-rotation" && config.invert_rotation) {
+    const std::string path = doubt.settings.empty() ? "" : doubt.settings.front().path;
+    if (path == "mapping.invert_rotation" && config.invert_rotation) {
       doubt.message = "the poses and the gyroscope show different rotations; they agree if nothing is inverted";
-      doubt.setting = "no --invert-rotation";
-    } else if (doubt.setting.starts_with("--imu-axes") && config.left_handed) {
-      doubt.setting += ", or no --left-handed";
+      doubt.settings.front().value = "false";
+    } else if (path == "mapping.imu_axes" && config.left_handed) {
+      doubt.left_handed = false;
     } else if (doubt.group == ColumnGroup::kRate && !doubt.axes.empty() && !config.left_handed) {
-      doubt.message += "; where the poses' world is left-handed, state --left-handed first";
+      doubt.left_handed = true;
     }
   }
 }

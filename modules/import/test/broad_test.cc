@@ -105,11 +105,13 @@ TEST_F(ImportOthers, ReadsBroadsOwnColumns) {
   MappingConfig config;
   config.columns = "a=#1-#3[m/s2], g=#4-#6[rad/s], p=#7-#9[m], q=#10-#13";
   config.quaternion = "wxyz";
-  EXPECT_THAT(
-      [&] {
-        read_import_tables({dir_ / "trial.csv", {}, {}, {}, {}}, config);
-      },
-      testing::ThrowsMessage<Error>(testing::HasSubstr("or state the rate of the rows, as --pose-file-rate")));
+  try {
+    read_import_tables({dir_ / "trial.csv", {}, {}, {}, {}}, config);
+    ADD_FAILURE() << "the rate is not known";
+  } catch (const UnstatedSetting& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith("or state the rate of the rows"));
+    EXPECT_EQ(as_option(error.example()), "--pose-file-rate 500");
+  }
   config.pose.rate_Hz = 2000.0 / 7.0;
   expect_same(imported({dir_ / "trial.csv", {}, {}, {}, {}}, config), 1e-15, 1e-7);
 }

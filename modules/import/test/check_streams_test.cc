@@ -22,6 +22,12 @@ ImportDoubt only_doubt(const ImportStreams& streams, const StreamUnits& units = 
   return checks.doubts.empty() ? ImportDoubt{} : checks.doubts.front();
 }
 
+std::string options(const ImportDoubt& doubt) {
+  std::string out;
+  for (const StatedSetting& setting : doubt.settings) out += (out.empty() ? "" : " ") + as_option(setting);
+  return out;
+}
+
 TEST(CheckStreams, FindsNoFaultWithARightMotion) {
   const StreamChecks checks = check_streams(known_motion());
   EXPECT_THAT(checks.doubts, IsEmpty());
@@ -86,14 +92,14 @@ TEST(CheckStreams, NamesAxesThatAreNotTheBodys) {
   Eigen::Matrix3d R_body_sensor = sensor_axes("y,-x,z");
   for (auto& omega : streams.rate.value) omega = R_body_sensor.transpose() * omega;
   for (auto& f : streams.specific_force.value) f = R_body_sensor.transpose() * f;
-  EXPECT_EQ(only_doubt(streams).setting, "--imu-axes y,-x,z");
+  EXPECT_EQ(options(only_doubt(streams)), "--imu-axes y,-x,z");
   turn_sensor(streams, R_body_sensor);
   EXPECT_THAT(check_streams(streams).doubts, IsEmpty());
 
   const Eigen::Quaterniond tilt = exp_rotation({0.6, -0.5, 0.4});
   for (auto& omega : streams.rate.value) omega = tilt.conjugate() * omega;
   for (auto& f : streams.specific_force.value) f = tilt.conjugate() * f;
-  const std::string setting = only_doubt(streams).setting;
+  const std::string setting = options(only_doubt(streams));
   ASSERT_THAT(setting, HasSubstr("--imu-axes 0."));
   const Eigen::Quaterniond found(sensor_axes(setting.substr(std::string("--imu-axes ").size())));
   EXPECT_LT(found.angularDistance(tilt), 0.01);
@@ -111,7 +117,7 @@ TEST(CheckStreams, TellsAMirroredSensorFromAnExchangedOne) {
   const Eigen::Matrix3d mirror = sensor_axes("x,y,-z"), one = Eigen::Matrix3d::Identity();
   // A left-handed sensor whose rates follow the left hand: turned alike is −mirror.
   ImportStreams left = with_sensor(mirror, -mirror);
-  EXPECT_EQ(only_doubt(left).setting, "--imu-axes x,y,-z");
+  EXPECT_EQ(options(only_doubt(left)), "--imu-axes x,y,-z");
   turn_sensor(left, mirror);
   EXPECT_THAT(check_streams(left).doubts, IsEmpty());
   // Rates alone with one sign wrong, or two columns exchanged: no rotation of the sensor explains it.
@@ -150,9 +156,11 @@ TEST(CheckStreams, NamesAnotherOrderOfTheQuaternionItsInverseAndMirrorImages) {
   };
   using Q = Eigen::Quaterniond;
   // Cells x y z w read as w x y z, and w x y z read as x y z w.
-  EXPECT_EQ(only_doubt(changed([](const Q& q) { return Q(q.x(), q.y(), q.z(), q.w()); })).setting, "--quaternion xyzw");
-  EXPECT_EQ(only_doubt(changed([](const Q& q) { return Q(q.z(), q.w(), q.x(), q.y()); })).setting, "--quaternion wxyz");
-  EXPECT_EQ(only_doubt(changed([](const Q& q) { return q.conjugate(); })).setting, "--invert-rotation");
+  EXPECT_EQ(options(only_doubt(changed([](const Q& q) { return Q(q.x(), q.y(), q.z(), q.w()); }))),
+            "--quaternion xyzw");
+  EXPECT_EQ(options(only_doubt(changed([](const Q& q) { return Q(q.z(), q.w(), q.x(), q.y()); }))),
+            "--quaternion wxyz");
+  EXPECT_EQ(options(only_doubt(changed([](const Q& q) { return q.conjugate(); }))), "--invert-rotation");
 }
 
 TEST(CheckStreams, DoesNotJudgeWhatDoesNotMove) {

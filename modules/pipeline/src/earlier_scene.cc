@@ -133,8 +133,7 @@ EarlierScene read_earlier_scene(const fs::path& scene, const Observer& observer)
   out.scene = read_scene(scene, observer);
   out.files = files_of_ours(out.folder);
   out.own_files = files_of_scene(out.scene, out.file);
-  for (SceneObject& object : out.scene.objects)
-    object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+  name_meshes_obj(out.scene);
   const fs::path registration = out.folder / kRegistration;
   if (!out.files.contains(kRegistration) || !fs::is_regular_file(registration)) return out;
   const std::string name = printable((out.given / kRegistration).string());

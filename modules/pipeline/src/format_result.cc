@@ -302,6 +302,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["friction"] = friction_json(result.friction);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},
+                      {"start_m", result.profile.s_m.at(result.fit->first_sample)},
                       {"length_mm", result.fit->texture.length_mm},
                       {"harmonics", result.fit->texture.a_m.size()},
                       {"rms_height_m", result.fit->rms_height_m},

@@ -139,10 +139,7 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
   RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
-    if (!guess)
-      throw Error(
-          "registration by this method begins from a pose near the right one: give a guess (--guess, --align or "
-          "--picks)");
+    if (!guess) throw Error("registration by this method begins from a pose near the right one: give a guess of it");
     out.registration = method.register_paths(config.process, paths, surface, *guess);
     out.slow_error_world_m.resize(members.size());
     // The baseline's method knows no error of its guess.

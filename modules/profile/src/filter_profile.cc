@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/text.h"
 #include "gaussian_filter.h"
 #include "robust_gaussian_filter.h"
@@ -17,18 +18,14 @@ std::size_t missing_in(std::span<const double> z) {
 }
 
 void check_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
-  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m)) {
-    throw Error("roughness: the spacing " + number_text(spacing_m) + " m is not a positive length");
-  }
+  require_plausible_spacing(spacing_m, "roughness");
   if (config.sections < 1)
     throw Error("roughness: " + std::to_string(config.sections) + " sections; at least one is needed");
   if (height_m.size() < 2 * static_cast<std::size_t>(config.sections)) {
     throw Error("roughness: " + std::to_string(height_m.size()) + " heights are too few for " +
                 std::to_string(config.sections) + " sections");
   }
-  for (std::size_t i = 0; i < height_m.size(); ++i) {
-    if (std::isinf(height_m[i])) throw Error("roughness: height " + std::to_string(i + 1) + " is infinite");
-  }
+  require_plausible_heights(height_m, "roughness");
   const std::size_t missing = missing_in(height_m);
   if (missing + 2 > height_m.size() ||
       static_cast<double>(missing) > config.max_missing * static_cast<double>(height_m.size())) {

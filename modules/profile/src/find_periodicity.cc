@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
 #include "follow_pattern.h"
@@ -252,7 +253,9 @@ Periodicity follow_pattern(std::span<const double> height_m, double spacing_m, d
 }
 
 Periodicity find_repetition(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
-  if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
+  require_plausible_spacing(spacing_m, "periodicity");
+  require_plausible_heights(height_m, "periodicity");
+  if (!(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
     throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
                 " to " + number_text(config.max_pitch_m) + " m");
   }

@@ -12,6 +12,7 @@
 #include "areal_gaussian_filter.h"
 #include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/text.h"
 #include "local_slopes.h"
 #include "material_curve.h"
@@ -27,14 +28,18 @@ std::size_t check_map(const ArealMap& map, const ArealTextureConfig& config) {
                 std::to_string(map.columns) + " by " + std::to_string(map.rows) + " points");
   }
   for (const double spacing_m : {map.x_spacing_m, map.y_spacing_m}) {
-    if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
-      throw Error("areal roughness: the spacing " + number_text(spacing_m) + " m is not a positive length");
+    require_plausible_spacing(spacing_m, "areal roughness");
   }
   std::size_t missing = 0;
   for (std::size_t i = 0; i < map.height_m.size(); ++i) {
     if (std::isinf(map.height_m[i])) {
       throw Error("areal roughness: the height in row " + std::to_string(i / map.columns + 1) + ", column " +
                   std::to_string(i % map.columns + 1) + " is infinite");
+    }
+    if (std::abs(map.height_m[i]) > kPlausibleHeight_m) {
+      throw Error("areal roughness: the height in row " + std::to_string(i / map.columns + 1) + ", column " +
+                  std::to_string(i % map.columns + 1) + " is " + number_text(map.height_m[i]) +
+                  " m, which is not plausible");
     }
     if (std::isnan(map.height_m[i])) ++missing;
   }

@@ -25,6 +25,16 @@ bool is_identity(const Pose& pose) {
   return pose.translation_m.isZero(0.0) && pose.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs();
 }
 
+// `wanted`, or with the first number before it that makes a name which is not taken; then it is.
+std::string take_name(const std::string& wanted, std::set<std::string>& taken) {
+  const fs::path path(wanted);
+  std::string name = wanted;
+  for (int n = 2; taken.count(name) > 0; ++n)
+    name = (path.parent_path() / (std::to_string(n) + "-" + path.filename().string())).string();
+  taken.insert(name);
+  return name;
+}
+
 // The files of what is covered, one an object: two objects may have called theirs the same.
 std::vector<std::string> covered_files(const Scene& scene) {
   std::set<std::string> taken;
@@ -33,14 +43,8 @@ std::vector<std::string> covered_files(const Scene& scene) {
     for (const SceneTexture& texture : object.textures) taken.insert(texture.file);
   }
   std::vector<std::string> out;
-  for (const SceneObject& object : scene.objects) {
-    const fs::path wanted(object.covered_file);
-    std::string name = object.covered_file;
-    for (int n = 2; !name.empty() && taken.count(name) > 0; ++n)
-      name = (wanted.parent_path() / (std::to_string(n) + "-" + wanted.filename().string())).string();
-    taken.insert(name);
-    out.push_back(std::move(name));
-  }
+  for (const SceneObject& object : scene.objects)
+    out.push_back(object.covered_file.empty() ? std::string() : take_name(object.covered_file, taken));
   return out;
 }
 
@@ -116,6 +120,22 @@ std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshF
   const fs::path library = fs::path(name).replace_extension(".mtl");
   named.material_libraries = {library.filename().string()};
   return {{library.string(), format_mtl(mesh.materials)}, {name, format_obj(named)}};
+}
+
+void name_meshes_obj(Scene& scene) {
+  std::set<std::string> taken;
+  for (const SceneObject& object : scene.objects) {
+    taken.insert({object.covered_file, object.material_file});
+    for (const SceneTexture& texture : object.textures) taken.insert(texture.file);
+  }
+  // Those whose name is right already keep it.
+  for (const bool is_obj : {true, false}) {
+    for (SceneObject& object : scene.objects) {
+      const fs::path file(object.mesh_file);
+      if ((file.extension() == ".obj") != is_obj || (is_obj && taken.insert(object.mesh_file).second)) continue;
+      object.mesh_file = take_name(fs::path(file).replace_extension(".obj").string(), taken);
+    }
+  }
 }
 
 std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& scene) {

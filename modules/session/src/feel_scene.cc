@@ -7,9 +7,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/device/cap_scene.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/scene/height_map_viewer.h"
 #include "asperity/scene/read_scene.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/texture/read_height_image.h"
 
 namespace asperity {

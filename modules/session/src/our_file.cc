@@ -56,12 +56,20 @@ void refuse_stranger(const fs::path& file, std::string_view header, const std::v
       file, [header](std::string_view begin) { return begin.starts_with(header); }, inputs);
 }
 
-bool begins_as_texture(std::string_view begin) {
+namespace {
+
+bool begins_as_format(std::string_view begin, std::string_view format) {
   std::string dense;
   std::copy_if(begin.begin(), begin.end(), std::back_inserter(dense),
                [](char c) { return c != ' ' && c != '\n' && c != '\r' && c != '\t'; });
-  return dense.starts_with(R"({"format":"asperity-texture",)");
+  return dense.starts_with(R"({"format":")" + std::string(format) + R"(",)");
 }
+
+}  // namespace
+
+bool begins_as_texture(std::string_view begin) { return begins_as_format(begin, "asperity-texture"); }
+
+bool begins_as_scene(std::string_view begin) { return begins_as_format(begin, "asperity-scene"); }
 
 std::string signed_png(std::string png) {
   png.insert(kPngHeader_bytes, png_note());

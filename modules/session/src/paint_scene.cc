@@ -1,10 +1,12 @@
 #include "asperity/session/paint_scene.h"
 
 #include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/json/json.h"
 #include "asperity/scene/lay_texture.h"
 #include "asperity/scene/read_scene.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/scene/set_mesh_unit.h"
+#include "asperity/scene/write_scene.h"
 #include "asperity/texture/texture_file.h"
 
 namespace asperity {
@@ -19,10 +21,7 @@ Scene read_painted_scene(const fs::path& file, std::optional<double> unit_m, con
   } else {
     refuse_unlikely_metres(object.mesh, file);
   }
-  for (SceneObject& each : scene.objects) {
-    if (fs::path(each.mesh_file).extension() != ".obj")
-      each.mesh_file = fs::path(each.mesh_file).replace_extension(".obj").string();
-  }
+  name_meshes_obj(scene);
   if (file.extension() != ".json") object.mesh_file = "textured.obj";
   return scene;
 }

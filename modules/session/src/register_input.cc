@@ -11,12 +11,13 @@
 #include "asperity/base/error.h"
 #include "asperity/base/md5.h"
 #include "asperity/base/text.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/recording/fingerprint.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/scene/read_scene.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/scene/set_mesh_unit.h"
 #include "asperity/texture/texture_file.h"
 
 namespace asperity {

@@ -23,15 +23,13 @@ void write_pictures(const fs::path& folder, const SceneTexture& texture) {
 
 std::string write_area(const fs::path& folder, const AreaInput& input, const AreaResult& area) {
   Scene scene = input.scene;
-  SceneObject& object = scene.objects.front();
   std::string name;
   if (area.texture) {
     const SceneTexture& texture = add_area(scene, area);
     name = texture.file;
     write_pictures(folder, texture);
   }
-  if (fs::path(object.mesh_file).extension() != ".obj")
-    object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+  name_meshes_obj(scene);
   write_scene(folder / "scene.json", scene);
   AreaResult noted = area;
   for (const LeftOutScan& scan : input.left_out)

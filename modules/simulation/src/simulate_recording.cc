@@ -12,6 +12,7 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/json/config_json.h"
 #include "asperity/simulation/carried_object.h"
@@ -29,6 +30,17 @@ namespace {
 
 constexpr std::int64_t kStart_ns = 1'000'000'000;
 constexpr std::int64_t kStepsPerUpdate = 8192;
+
+// Throws UnlikelyMetres if the unit is not stated and metres are implausible.
+TriangleMesh read_shape_mesh(const SimulatedShapeConfig& shape, const Observer& observer) {
+  constexpr double kSmallestUnit_m = 1e-9;
+  if (shape.mesh_file.empty()) throw Error("simulation.shape.mesh_file: the file of the mesh is missing");
+  if (shape.mesh_unit_m > 0.0 && shape.mesh_unit_m < kSmallestUnit_m)
+    throw Error(fmt::format("simulation.shape.mesh_unit_m: {} m is below {} m", shape.mesh_unit_m, kSmallestUnit_m));
+  const MeshFile mesh = read_mesh(shape.mesh_file, {}, observer);
+  if (shape.mesh_unit_m == 0.0) refuse_unlikely_metres(mesh, shape.mesh_file);
+  return to_metres(mesh, shape.mesh_unit_m > 0.0 ? shape.mesh_unit_m : 1.0);
+}
 
 void check_simulation(const SimulationConfig& config) {
   // Semi-implicit Euler is stable below a phase of 2 a step; at 0.3 its frequency is right to 0.4 %.
@@ -206,9 +218,7 @@ Recording simulate_recording(const SimulationConfig& config, const Observer& obs
   const std::unique_ptr<Surface> surface = make_surface(
       config.surface, static_cast<std::uint64_t>(config.surface.seed != 0 ? config.surface.seed : config.seed));
   if (config.shape.kind != BaseShapeKind::kMesh) return simulate_recording(config, *surface, observer);
-  if (config.shape.mesh_file.empty()) throw Error("simulation.shape.mesh_file: the file of the mesh is missing");
-  return simulate_recording(
-      config, *surface, to_metres(read_mesh(config.shape.mesh_file, {}, observer), config.shape.mesh_unit_m), observer);
+  return simulate_recording(config, *surface, read_shape_mesh(config.shape, observer), observer);
 }
 
 }  // namespace asperity

@@ -9,6 +9,7 @@
 
 #include "areal_system.h"
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_spline_grid.h"
@@ -46,6 +47,11 @@ std::vector<ArealSample> checked(std::span<const ArealSample> samples, Problems&
     if (!std::isfinite(s.x_m) || !std::isfinite(s.y_m) || std::isinf(s.height_m)) {
       throw Error("texture: sample " + std::to_string(i + 1) + " at (" + number_text(s.x_m) + ", " +
                   number_text(s.y_m) + ") m with height " + number_text(s.height_m) + " m is not finite");
+    }
+    constexpr double kFurthest_m = 1e6;
+    if (std::abs(s.x_m) > kFurthest_m || std::abs(s.y_m) > kFurthest_m || std::abs(s.height_m) > kPlausibleHeight_m) {
+      throw Error("texture: sample " + std::to_string(i + 1) + " at (" + number_text(s.x_m) + ", " +
+                  number_text(s.y_m) + ") m with height " + number_text(s.height_m) + " m is not plausible");
     }
     if (!std::isnan(s.height_m)) present.push_back(s);
   }
@@ -142,6 +148,10 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
   const Extent extent = extent_of(present);
   if (!(extent.high_x > extent.low_x) || !(extent.high_y > extent.low_y))
     throw Error("texture: the heights are on one line; a surface needs an area");
+  constexpr double kSmallest_m = 1e-9;
+  if (const double side_m = std::max(extent.high_x - extent.low_x, extent.high_y - extent.low_y); side_m < kSmallest_m)
+    throw Error("texture: heights over " + number_text(side_m) + " m are not plausible: at least " +
+                number_text(kSmallest_m) + " m");
   double mean_m = 0.0;
   for (const auto& s : present) mean_m += s.height_m / static_cast<double>(present.size());
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_fourier1d.h"
@@ -16,16 +17,13 @@ namespace asperity {
 namespace {
 
 void check_heights(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
-  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
-    throw Error("texture: the spacing " + number_text(spacing_m) + " m is not a positive length");
+  require_plausible_spacing(spacing_m, "texture");
   if (!(config.length_mm > 0.0) || !std::isfinite(config.length_mm)) {
     throw Error("texture: the length " + number_text(config.length_mm) + " mm is not positive");
   }
   if (config.coefficients < 1)
     throw Error("texture: " + std::to_string(config.coefficients) + " coefficients; at least one is needed");
-  for (std::size_t i = 0; i < height_m.size(); ++i) {
-    if (std::isinf(height_m[i])) throw Error("texture: height " + std::to_string(i + 1) + " is infinite");
-  }
+  require_plausible_heights(height_m, "texture");
 }
 
 // The number of samples nearest to a length, at most a billion; 0 for a length that is not positive.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/rounded_text.h"
 #include "asperity/base/smoothstep.h"
 #include "asperity/base/text.h"
@@ -199,8 +200,8 @@ FourierSamplesFit fit_fourier1d_samples(std::span<const double> x_m, std::span<c
 
 FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spacing_m,
                                   const FitFourier1dPathConfig& config) {
-  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
-    throw Error("texture: the spacing " + number_text(spacing_m) + " m is not a positive length");
+  require_plausible_spacing(spacing_m, "texture");
+  require_plausible_heights(height_m, "texture");
   const auto seam = static_cast<std::size_t>(std::lround(config.seam_mm * 1e-3 / spacing_m));
   std::vector<double> closed_m(height_m.begin(), height_m.end());
   closed_m.resize(height_m.size() + seam, std::numeric_limits<double>::quiet_NaN());

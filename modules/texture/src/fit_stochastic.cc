@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/plausible_profile.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/spectrum.h"
 #include "asperity/texture/evaluate_stochastic.h"
@@ -84,12 +85,11 @@ double misplaced(const std::vector<double>& p, const std::vector<double>& q) {
 }  // namespace
 
 StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m, const FitStochasticConfig& config) {
-  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
-    throw Error("texture: the spacing " + number_text(spacing_m) + " m is not a positive length");
+  require_plausible_spacing(spacing_m, "texture");
+  require_plausible_heights(height_m, "texture");
   std::vector<double> present;
-  for (std::size_t i = 0; i < height_m.size(); ++i) {
-    if (std::isinf(height_m[i])) throw Error("texture: height " + std::to_string(i + 1) + " is infinite");
-    if (!std::isnan(height_m[i])) present.push_back(height_m[i]);
+  for (const double h : height_m) {
+    if (!std::isnan(h)) present.push_back(h);
   }
   const Window window = longest_stretch(bridge_short_gaps(height_m, 0));
   if (window.count < kFewestSamples) {

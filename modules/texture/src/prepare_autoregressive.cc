@@ -117,6 +117,9 @@ void prepare_autoregressive(AutoregressiveTexture& texture, const std::string& n
   for (auto& model : texture.models) {
     ++number;
     derive_powers(model);
+    if (model.sigma_mps2 < 0.0)
+      throw Error(name + ": model " + std::to_string(number) +
+                  " is at the limit of stability, as that of a tone without noise");
     if (!(model.sigma_mps2 >= 0.0 && model.sigma_mps2 <= 1e9 && model.pole_variance_m2_per_s4 <= 1e18))
       refuse(name, "the output's standard deviation of model " + std::to_string(number), model.sigma_mps2);
     if (texture.max_speed_mps < model.speed_mps) texture.max_speed_mps = model.speed_mps;

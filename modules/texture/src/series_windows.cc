@@ -61,9 +61,16 @@ void check_recording(const SeriesRecording& r) {
   }
   if (!(r.rate_Hz >= 1.0 && r.rate_Hz <= 1e6))
     throw Error("texture: the rate " + number_text(r.rate_Hz) + " Hz is not within 1 and 1e6");
+  constexpr double kMost_mps2 = 1e6, kFastest_mps = 1e3, kMost_N = 1e6;  // beyond every sensor
   for (std::size_t i = 0; i < count; ++i) {
     if (!std::isfinite(r.acceleration_mps2[i]) || !std::isfinite(r.speed_mps[i]) || !std::isfinite(r.force_N[i]))
       throw Error("texture: sample " + std::to_string(i + 1) + " of the recording is not finite");
+    if (std::abs(r.acceleration_mps2[i]) > kMost_mps2 || std::abs(r.speed_mps[i]) > kFastest_mps ||
+        std::abs(r.force_N[i]) > kMost_N) {
+      throw Error("texture: sample " + std::to_string(i + 1) +
+                  " of the recording is not plausible: " + number_text(r.acceleration_mps2[i]) + " m/s², " +
+                  number_text(r.speed_mps[i]) + " m/s, " + number_text(r.force_N[i]) + " N");
+    }
   }
 }
 

@@ -21,7 +21,7 @@ constexpr VerdictCode kCodes[] = {
     {"wrong_frame", kInvalid,
      "check the signs and axes of the accelerometer's calibration, of gravity and of the tracker's world"},
     {"latency_off", kInvalid, "calibrate the latency with `asperity calibrate latency`"},
-    {"clocks_drift", kInvalid, "stamp both streams by one clock, or import with --clocks separate"},
+    {"clocks_drift", kInvalid, "stamp both streams by one clock, or import with the setting mapping.clocks=separate"},
     {"scale_disagrees", kInvalid,
      "check the size of the printed markers, the camera's calibration, units, and the accelerometer's scale"},
     {"scale_doubtful", kLimited, "check the size of the printed markers and the accelerometer's scale"},
@@ -46,7 +46,7 @@ constexpr VerdictCode kCodes[] = {
     {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
     {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
     {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},
-    {"object_unseen", kInvalid, "keep the markers on the object in view, or process with `--set reference=world`"},
+    {"object_unseen", kInvalid, "keep the markers on the object in view, or process with the setting reference=world"},
     {"object_hidden", kLimited, "keep the markers on the object in view"},
     {"object_moved", kNote, ""},
     // A scan: what was measured.
@@ -110,7 +110,7 @@ constexpr VerdictCode kCodes[] = {
      "check the mesh against the object, and state its error with search.registration.surface_error_m"},
     {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},
     {"off_mesh", kInvalid, "check that it is the right mesh, and the unit of the mesh"},
-    {"pose_arbitrary", kInvalid, "give a guess with --guess, --align or --picks, or scan in more directions"},
+    {"pose_arbitrary", kInvalid, "give a guess of the pose, or scan in more directions"},
     {"no_path_on_mesh", kInvalid, "check the guess and the mesh's unit"},
     {"no_haptic_coordinates", kInvalid, "scan each connected part of the mesh by itself"},
     // An area of many strokes (judge_area.h).

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace Asperity.Feel.Editor
 {
     /// <summary>
-    /// Assets / Import Asperity scene: copies the folder of a *.scene.json into StreamingAssets/Asperity, and makes a
-    /// GameObject with a HapticSurface of it. The folder is copied whole, since a scene names its files relative to it.
+    /// Assets / Import Asperity scene: copies a *.scene.json and the files that it names into a folder of
+    /// StreamingAssets/Asperity, and makes a GameObject with a HapticSurface of it.
     /// </summary>
     public static class SceneImporter
     {
@@ -34,8 +34,8 @@ namespace Asperity.Feel.Editor
         }
 
         /// <summary>
-        /// Checks that the scene can be read, copies its folder below `into`, and returns the copy's path relative to it.
-        /// A folder that is there already is not changed: the copy gets a number.
+        /// Checks that the scene can be read, copies it with its files below `into`, and returns the copy's path relative
+        /// to that. A folder that is there already is not changed: the copy gets a number.
         /// </summary>
         public static string CopyScene(string file, string into)
         {
@@ -46,20 +46,18 @@ namespace Asperity.Feel.Editor
             string from = Path.GetDirectoryName(Path.GetFullPath(file)), name = Path.GetFileName(from);
             string target = Path.Combine(into, "Asperity", name);
             for (int i = 2; Directory.Exists(target); ++i) target = Path.Combine(into, "Asperity", name + " " + i);
-            if ((Path.GetFullPath(target) + "/").StartsWith(from + "/", StringComparison.Ordinal))
-                throw new IOException("the project is inside of the scene's folder " + from);
             string partly = target + ".partly";
             if (Directory.Exists(partly)) Directory.Delete(partly, true);
-            CopyFolder(from, partly);
+            foreach (string each in SceneFiles.Of(file)) CopyFile(from, partly, each);
             Directory.Move(partly, target);
             return Path.Combine("Asperity", Path.GetFileName(target), Path.GetFileName(file)).Replace('\\', '/');
         }
 
-        private static void CopyFolder(string from, string to)
+        private static void CopyFile(string from, string to, string name)
         {
-            Directory.CreateDirectory(to);
-            foreach (string file in Directory.GetFiles(from)) File.Copy(file, Path.Combine(to, Path.GetFileName(file)));
-            foreach (string folder in Directory.GetDirectories(from)) CopyFolder(folder, Path.Combine(to, Path.GetFileName(folder)));
+            string copy = Path.Combine(to, name);
+            Directory.CreateDirectory(Path.GetDirectoryName(copy));
+            File.Copy(Path.Combine(from, name), copy);
         }
     }
 }

@@ -15,11 +15,20 @@ namespace Asperity.Feel
         /// <summary>Version of the C library, such as "1.2 (asperity 0.2.0)".</summary>
         public static string LibraryVersion { get { return Native.Text(Native.asperity_feel_version()); } }
 
-        /// <summary>Reads a *.scene.json with the files that it names, or a mesh (OBJ, PLY, STL, OFF, glTF) in metres.</summary>
+        /// <summary>Reads a *.scene.json with the files that it names, or a mesh (OBJ, PLY, STL, OFF, glTF) in metres. A mesh
+        /// that would be larger than 5 m or smaller than 1 mm is refused: its unit is to be stated.</summary>
         public static FeelScene Read(string path)
         {
             IntPtr scene;
             Native.Check(Native.asperity_scene_read(Native.Utf8(path), out scene));
+            return new FeelScene(scene);
+        }
+
+        /// <summary>The same of a mesh whose unit has a length of `unit_m`, 0.001 for millimetres.</summary>
+        public static FeelScene Read(string path, double unit_m)
+        {
+            IntPtr scene;
+            Native.Check(Native.asperity_scene_read_with_unit(Native.Utf8(path), unit_m, out scene));
             return new FeelScene(scene);
         }
 

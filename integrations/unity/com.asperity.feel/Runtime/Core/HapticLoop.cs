@@ -18,7 +18,7 @@ namespace Asperity.Feel
         private readonly Stopwatch clock = Stopwatch.StartNew();
         private readonly Thread thread;
         private readonly double rate_Hz;
-        private volatile bool stop;
+        private volatile bool stop, disposesItself;
         private Touch shared = Touch.Create();
         private double longest_s, rumble;
         private long steps;
@@ -35,7 +35,7 @@ namespace Asperity.Feel
             thread = new Thread(Run) { IsBackground = true, Name = "Asperity haptic loop", Priority = ThreadPriority.Highest };
         }
 
-        /// <summary>Called on the loop's thread after each step; must not wait or allocate. Set before Start.</summary>
+        /// <summary>Called on the loop's thread after each step; must not wait or allocate, but may Dispose. Set before Start.</summary>
         public Action<Touch> OnStep { get; set; }
 
         /// <summary>Below, a hand is pushed rather than vibrated, Hz.</summary>
@@ -65,7 +65,7 @@ namespace Asperity.Feel
             }
         }
 
-        /// <summary>The last step's result.</summary>
+        /// <summary>The last step's result; without a force once the loop has ended.</summary>
         public Touch Last { get { lock (gate) return shared; } }
 
         /// <summary>From 0 to 1, how strongly a controller's motor should turn: RMS of the vibration above
@@ -91,8 +91,15 @@ namespace Asperity.Feel
         /// <summary>What ended the loop, or null.</summary>
         public Exception Fault { get { lock (gate) return fault; } }
 
+        /// <summary>Ends the loop and waits for its last step; in OnStep it only asks for the end, which follows at once.</summary>
         public void Dispose()
         {
+            if (Thread.CurrentThread == thread)
+            {
+                disposesItself = true;
+                stop = true;
+                return;
+            }
             stop = true;
             if (thread.IsAlive) thread.Join();
             tip.Dispose();
@@ -105,13 +112,14 @@ namespace Asperity.Feel
             try { Loop(); }
             catch (Exception e)
             {
-                lock (gate)
-                {
-                    fault = e;
-                    shared = Touch.Create();
-                    rumble = 0.0;
-                }
+                lock (gate) fault = e;
             }
+            lock (gate)
+            {
+                shared = Touch.Create();
+                rumble = 0.0;
+            }
+            if (disposesItself) tip.Dispose();
         }
 
         private void Loop()

@@ -22,7 +22,7 @@ namespace Asperity.Feel
         public Status Status { get; }
     }
 
-    /// <summary>The functions of asperity_feel.h, version 1.1, as they are.</summary>
+    /// <summary>The functions of asperity_feel.h, version 1.2, as they are.</summary>
     internal static class Native
     {
         private const string Library = "asperity_feel";
@@ -32,6 +32,8 @@ namespace Asperity.Feel
         [DllImport(Library)] internal static extern IntPtr asperity_feel_version();
 
         [DllImport(Library)] internal static extern int asperity_scene_read(byte[] path, out IntPtr scene);
+        [DllImport(Library)]
+        internal static extern int asperity_scene_read_with_unit(byte[] path, double unit_m, out IntPtr scene);
         [DllImport(Library)]
         internal static extern int asperity_scene_from_mesh(double[] vertices_m, UIntPtr vertexCount, uint[] triangles,
                                                             UIntPtr triangleCount, out IntPtr scene);
@@ -109,7 +111,8 @@ namespace Asperity.Feel
         {
             if (status == (int)Status.Ok) return;
             string why = Text(asperity_last_error());
-            throw new AsperityException((Status)status, string.IsNullOrEmpty(why) ? Text(asperity_status_text(status)) : why);
+            if (string.IsNullOrEmpty(why)) why = Text(asperity_status_text(status));
+            throw new AsperityException((Status)status, why.Replace("asperity_scene_read_with_unit()", "FeelScene.Read(path, unit_m)"));
         }
     }
 

@@ -13,6 +13,8 @@ namespace Asperity.Feel.Unity
     {
         [Tooltip("A *.scene.json or a mesh; relative paths begin in StreamingAssets.")]
         public string sceneFile = "";
+        [Tooltip("Length of a mesh's unit, m, 0.001 for millimetres; 0: a metre. A *.scene.json states its own.")]
+        public double meshUnit_m = 0.0;
         public UpAxis up = UpAxis.Z;
         [Tooltip("Where neither a material map nor a texture states it, N/m; 0: as the scene's file states it, or 1000.")]
         [Range(0f, 3000f)] public float stiffness_N_per_m = 0f;
@@ -33,7 +35,7 @@ namespace Asperity.Feel.Unity
             string path = Path.IsPathRooted(sceneFile) ? sceneFile : Path.Combine(Application.streamingAssetsPath, sceneFile);
             try
             {
-                scene = FeelScene.Read(path);
+                scene = meshUnit_m > 0.0 ? FeelScene.Read(path, meshUnit_m) : FeelScene.Read(path);
                 if (stiffness_N_per_m > 0f) scene.SetStiffness(stiffness_N_per_m);
                 if (showMesh) ShowObjects();
             }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/import/body_frame.h"
+#include "asperity/import/stated_setting.h"
 
 namespace asperity {
 
@@ -12,10 +13,11 @@ namespace asperity {
 struct ImportDoubt {
   ColumnGroup group = ColumnGroup::kTime;
   FileRole role = FileRole::kPose;
-  std::string message;  // what is seen, and what it looks like
-  std::string unit;     // the unit that would fit; "" if it is not a unit
-  std::string setting;  // the option that would fit, such as "--imu-axes y,-x,z"; "" if it is not one
-  std::string axes{};   // the group's columns that would fit as x, y, z, such as "y,-x,z"; "" if it is not these
+  std::string message;                  // what is seen, and what it looks like
+  std::string unit;                     // the unit that would fit; "" if it is not a unit
+  std::vector<StatedSetting> settings;  // that would fit together; empty if it is not one
+  std::string axes{};  // the group's columns that would fit as x, y, z, such as "y,-x,z"; "" if it is not these
+  std::optional<bool> left_handed{};  // false: stating it no more would fit, too; true: it is to be stated before these
 };
 
 // How the streams were read, for what would fit better.

@@ -64,7 +64,7 @@ struct TrackerSigma {
 TrackerSigma tracker_sigma(const PoseNoise& noise, const ImportConfig& config);
 
 // A doubt as an error says it: file, columns, their unit, what they look like and what to state.
-std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables);
+std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables, const SettingText& text_of = as_option);
 
 // The recording as import_imu_pose makes it, and
 // - the probe's rows are those of the inertial sensor, or of the force where that is faster by more than half; the

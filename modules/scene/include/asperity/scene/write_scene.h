@@ -24,6 +24,10 @@ std::vector<SceneFile> format_texture_in_scene(const SceneTexture& texture);
 // A mesh as augmented OBJ (thesis §6.3), its materials in one library beside it, this first.
 std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshFile& mesh);
 
+// Gives each mesh a name that ends in .obj, as it will be written, and that no other file of the scene has: a.obj
+// stays, a.off beside it becomes 2-a.obj.
+void name_meshes_obj(Scene& scene);
+
 // All files of a scene: textures, material maps and meshes,
 // last the scene itself, called `name`. Throws Error for a name that leads out of the folder or that two files
 // share, or a mesh file that is not called *.obj.

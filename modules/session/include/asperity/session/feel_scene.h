@@ -27,7 +27,7 @@ struct SceneInput {
 };
 
 // Reads it. Images become tiles of a plane (thesis Fig. 38), rendered by Basdogan's model unless the settings name
-// another. Throws Error naming the file, WrongUnit and UnlikelyMetres (mesh_unit.h).
+// another. Throws Error naming the file, WrongUnit and UnlikelyMetres (geometry/mesh_unit.h).
 Scene read_scene_input(SceneInput& input, FeelSettings& settings, const Observer& observer = {});
 
 struct PreparedModel {

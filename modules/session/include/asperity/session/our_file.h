@@ -20,8 +20,9 @@ void refuse_stranger(const std::filesystem::path& file, const IsOurs& is_ours,
 void refuse_stranger(const std::filesystem::path& file, std::string_view header,
                      const std::vector<std::string>& inputs = {});
 
-// True for the beginning of a *.texture.json.
+// True for the beginning of a *.texture.json, and of a *.scene.json.
 bool begins_as_texture(std::string_view begin);
+bool begins_as_scene(std::string_view begin);
 
 // A PNG with a note behind its header that asperity wrote it, and whether one has that note.
 std::string signed_png(std::string png);

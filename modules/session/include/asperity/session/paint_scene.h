@@ -16,7 +16,8 @@
 namespace asperity {
 
 // A mesh, or the scene of an earlier painting, to paint on; its meshes get names that end in .obj, as they will be
-// written. `unit_m` is the length of a mesh's unit. Throws Error naming the file, and WrongUnit (mesh_unit.h).
+// written. `unit_m` is the length of a mesh's unit. Throws Error naming the file, and WrongUnit
+// (scene/set_mesh_unit.h).
 Scene read_painted_scene(const std::filesystem::path& file, std::optional<double> unit_m,
                          const Observer& observer = {});
 

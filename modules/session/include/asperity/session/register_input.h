@@ -27,7 +27,7 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
 
 // Reads recordings (folders) and paths (CSV) with the mesh or scene.json, and textures for the scans. Without a unit it
 // is that of the scene, or of a mesh 1 m. Throws Error as check_register_input does, and for what cannot be read;
-// WrongUnit (mesh_unit.h) for a scene of another unit.
+// WrongUnit (scene/set_mesh_unit.h) for a scene of another unit.
 RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh,
                                   std::optional<double> unit_m, const std::vector<std::string>& textures,
                                   const Observer& observer = {});

@@ -82,7 +82,7 @@ struct SimulatedShapeConfig {
   std::array<double, 3> stroke_direction{1.0, 0.0, 0.0};  // made perpendicular to the normal
 
   std::string mesh_file;                             // mesh: see read_mesh.h
-  double mesh_unit_m = 1.0;                          // mesh: the length of the file's unit
+  double mesh_unit_m = 0.0;                          // mesh: the length of the file's unit; 0: not stated
   std::string through;                               // mesh: the path's points "x,y,z;…" in the mesh frame, m
   MeshPose mesh_pose = MeshPose::kInPlace;           // mesh
   std::array<double, 3> mesh_position_m{0, 0, 0};    // mesh, given: T_world_mesh
@@ -97,7 +97,9 @@ struct SimulatedShapeConfig {
     v.field("normal", normal, "outward normal at the middle, world frame; need not be a unit vector", {-1.0, 1.0});
     v.field("stroke_direction", stroke_direction, "direction of the stroke at the middle, world frame", {-1.0, 1.0});
     v.field("mesh_file", mesh_file, "mesh: its file, OBJ, PLY, STL or glTF");
-    v.field("mesh_unit_m", mesh_unit_m, "mesh: the length of the file's unit, m", {1e-9, 1e3});
+    v.field("mesh_unit_m", mesh_unit_m,
+            "mesh: the length of the file's unit, m, from 1e-9; 0: not stated, a metre if the mesh is then 1 mm to 5 m",
+            {0.0, 1e3});
     v.field("through", through, "mesh: points of the path, x,y,z;x,y,z;... in the mesh frame, m; empty: chosen");
     v.choice("mesh_pose", mesh_pose, kMeshPoseNames,
              "mesh: in_place puts the path's middle at centre_m with that normal and direction; given: as below");

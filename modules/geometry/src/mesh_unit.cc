@@ -1,4 +1,4 @@
-#include "asperity/session/mesh_unit.h"
+#include "asperity/geometry/mesh_unit.h"
 
 #include <fmt/format.h>
 
@@ -9,14 +9,6 @@
 #include "asperity/base/text.h"
 
 namespace asperity {
-
-void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_m) {
-  SceneObject& object = scene.objects.front();
-  if (file.extension() == ".json" && object.unit_m != unit_m) {
-    throw WrongUnit(fmt::format("the scene states {} m", object.unit_m));
-  }
-  object.unit_m = unit_m;
-}
 
 double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
   Eigen::AlignedBox3d box;

@@ -1,17 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "asperity/base/error.h"
-#include "asperity/scene/scene.h"
+#include "asperity/geometry/mesh_file.h"
 
 namespace asperity {
 
-// A scene says otherwise what its unit is.
-class WrongUnit : public Error {
- public:
-  using Error::Error;
-};
+// Places and meshes in metres, where nobody could have taken another unit: what is further away or smaller is no object
+// that is felt, and its squares would overflow or vanish on the way.
+inline constexpr double kFurthestPlace_m = 1e6, kSmallestMesh_m = 1e-9;
 
 // Nobody stated the unit of a mesh's file, and metres make it something that no hand scans. The message ends before
 // how the unit is stated, which the caller knows.
@@ -23,10 +22,6 @@ class UnlikelyMetres : public Error {
  private:
   double size_m_;
 };
-
-// Gives the first mesh of what was read from `file` a unit of `unit_m`. Throws WrongUnit for a scene.json that has
-// another one.
-void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_m);
 
 // The length of the diagonal of the box around a mesh, m.
 double size_of_mesh_m(const MeshFile& mesh, double unit_m);
