@@ -30,3 +30,9 @@ export const unitOfLength = (unit_m: number): MeshUnit | null => meshUnits.find(
 
 /** A length as the document's text. */
 export const textOfLength = (unit_m: number): string => unitOfLength(unit_m)?.text ?? `${Number((unit_m * 1e3).toPrecision(12))}mm`;
+
+/** A unit in words: "Millimetre", or its length. */
+export const unitLabel = (text: string): string => {
+  const unit_m = unitOfText(text);
+  return (unit_m === null ? null : unitOfLength(unit_m)?.label) ?? text;
+};

@@ -4,7 +4,6 @@ import { edit } from "../../state/document";
 import { entries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
 import { MeshUnitField } from "../../ui/MeshUnitField";
-import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { Warning } from "../../ui/Warning";
@@ -35,8 +34,9 @@ export function FilesPanel() {
         testId="align-mesh"
       />
       {!isScene(section.mesh) && <MeshUnitField
-        unit_m={unitOfText(section.mesh_unit) ?? 1}
-        onChange={(unit_m) => void change({ mesh_unit: textOfLength(unit_m) }, "change the mesh's unit").catch(complain)}
+        value={section.mesh_unit}
+        file={section.mesh}
+        onChange={(mesh_unit) => void change({ mesh_unit }, "change the mesh's unit").catch(complain)}
         testId="align-unit"
       />}
       <fieldset class="align-paths">

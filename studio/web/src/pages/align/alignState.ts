@@ -4,6 +4,7 @@ import type { VerdictEntry } from "../../measured/verdicts";
 import { call, onEvent, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
+import { project } from "../../state/project";
 import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
 import type { AreaSection } from "./area";
@@ -18,6 +19,7 @@ import { ownPoses, type ScanPose } from "./scans";
 export interface AlignSection {
   paths: string[];
   mesh: string;
+  /** "": the project's, unless the file states one. */
   mesh_unit: string;
   textures: string[];
   config: Record<string, string>;
@@ -302,7 +304,7 @@ export function followAlign(): () => void {
     const { paths = [], mesh = "", mesh_unit = "", config = {} } = align.value ?? {};
     if (!documentIsRead.value || !mesh || paths.length === 0) return "";
     const points = Object.entries(config).filter(([path]) => path.startsWith("process.") || path.startsWith("points."));
-    return JSON.stringify([paths, mesh, mesh_unit, points]);
+    return JSON.stringify([paths, mesh, mesh_unit || project.value.mesh_unit, points]);
   });
   const ends = [
     effect(() => {

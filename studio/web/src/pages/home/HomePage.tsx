@@ -13,6 +13,7 @@ import { entries, readEntries } from "../../ui/entries";
 import { documentAddress } from "../../ui/helpPage";
 import { complain, say } from "../../ui/toast";
 import { counts } from "./counts";
+import { ProjectSettings } from "./ProjectSettings";
 import "./home.css";
 
 interface Recent {
@@ -80,6 +81,10 @@ export default function HomePage() {
             ))}
           </ul>
           {recent.length > 0 && <p class="field-hint">A studio works in one folder. Enter the copied command in a terminal to open another.</p>}
+        </section>
+        <section aria-labelledby="home-project">
+          <h2 id="home-project">Project settings</h2>
+          <ProjectSettings />
         </section>
         <section aria-labelledby="home-read">
           <h2 id="home-read">Read</h2>
