@@ -132,6 +132,8 @@ TEST_F(PaintInProject, AsksForTheUnitUntilItIsLikely) {
   EXPECT_THAT(call("paint.show").error, HasSubstr("0.052 mm large in the project's unit (um)"));
   document.edit("/paint/unit_m", 1.0, "the page's own unit is believed");
   EXPECT_EQ(call("paint.show").error, "");
+  document.edit("/paint/unit_m", nullptr, "the project's again");
+  EXPECT_NE(call("paint.show").error, "");
 }
 
 TEST(AlignInProject, UnitIsThePagesOrTheProjects) {

@@ -62,7 +62,7 @@ export default function PaintPage() {
   const textures: SceneTextureName[] = block?.head.textures ?? [];
   const figures: StrokeFigures[] = block?.head.strokes ?? [];
   const stroke = paint.strokes[paint.current];
-  const unit = paint.unit_m === null ? "" : textOfLength(paint.unit_m);
+  const unit = paint.unit_m === undefined ? "" : textOfLength(paint.unit_m);
   const cell_mm = chequer_mm(Math.max(...figures.map((one) => one.path_length_m ?? 0), 0.02));
 
   const begin = async (texture: string) => {
