@@ -60,9 +60,10 @@ async function align({ page }) {
 
 /** A stroke over the pebble's top, as broad as a finger. */
 async function paint({ page }) {
+  await open(page, "Home");
+  await page.getByTestId("project-unit").selectOption("mm");
   await open(page, "Paint");
   await page.getByTestId("paint-object").selectOption("pebble.obj");
-  await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
   await type(page.getByRole("spinbutton", { name: /Half-width of the stroke/ }), 6);
   for (const point of [[-33, -7, 17], [0, -11, 23], [33, -7, 17]]) {

@@ -7,7 +7,7 @@ import { MeshUnitField } from "../../ui/MeshUnitField";
 import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { Warning } from "../../ui/Warning";
-import { align, opened, type AlignSection } from "./alignState";
+import { align, opened, openFault, type AlignSection } from "./alignState";
 
 interface PathEntry {
   kind: "recording" | "path";
@@ -69,6 +69,7 @@ export function FilesPanel() {
           {points} points, {triangles} triangles
         </p>
       )}
+      {openFault.value && <Warning words={openFault.value} />}
       {((opened.value?.head.problems ?? []) as string[]).map((problem) => (
         <Warning key={problem} words={problem} />
       ))}

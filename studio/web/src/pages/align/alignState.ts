@@ -1,7 +1,7 @@
 // What the Align page knows in addition to the document: the open mesh and path, the last registration, what is being shown.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { VerdictEntry } from "../../measured/verdicts";
-import { call, onEvent, subscribe } from "../../net/connection";
+import { call, onEvent, Refusal, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
 import { project } from "../../state/project";
@@ -77,6 +77,8 @@ export const align = section<AlignSection | undefined>("align");
 export const opened = signal<Block | null>(null);
 /** Also before the page has begun to. */
 export const opening = signal(true);
+/** Why it could not be opened; "": it could. */
+export const openFault = signal("");
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
@@ -209,6 +211,7 @@ export async function open(): Promise<void> {
   try {
     const block = await call<Block>("align.open");
     if (!isNewest()) return;
+    openFault.value = "";
     opened.value = block;
     const last = await call<RunResult | null>("align.result");
     const all = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
@@ -218,7 +221,8 @@ export async function open(): Promise<void> {
   } catch (error) {
     if (!isNewest()) return;
     forget();
-    quietly(error);
+    if (error instanceof Refusal && error.message !== "cancelled") openFault.value = `${error.message}. ${error.hint}`;
+    else quietly(error);
   } finally {
     if (isNewest()) opening.value = false;
   }
@@ -236,6 +240,7 @@ function forget(): void {
 function close(): void {
   ++openings;
   opening.value = false;
+  openFault.value = "";
   forget();
 }
 

@@ -52,7 +52,6 @@ export default function PaintPage() {
       .then((shown) => mine === asked.current && (setBlock(shown), setFault("")))
       .catch((error: Error & { hint?: string }) => {
         if (error.message === "cancelled" || mine !== asked.current) return;
-        complain(error);
         setBlock(null);
         setFault(`${error.message}. ${error.hint ?? ""}`);
       })
