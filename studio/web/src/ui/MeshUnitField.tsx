@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { project } from "../state/project";
-import { meshUnits, textOfLength, unitLabel, unitOfLength, unitOfText } from "./meshUnits";
+import { meshUnits, textOfLength, unitOfLength, unitOfText, unitShort } from "./meshUnits";
 import { NumberField } from "./NumberField";
 import { Select } from "./Select";
 
@@ -46,4 +46,4 @@ export function MeshUnitField({ value, onChange, label = "Mesh unit", file, disa
   );
 }
 
-const unstated = (file: string): string => (/\.(gltf|glb)$/i.test(file) ? "As the file states: metre" : `Project's: ${unitLabel(project.value.mesh_unit).toLowerCase()}`);
+const unstated = (file: string): string => (/\.(gltf|glb)$/i.test(file) ? "File's (m)" : `Project's (${unitShort(project.value.mesh_unit) ?? project.value.mesh_unit})`);

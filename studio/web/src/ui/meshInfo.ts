@@ -1,6 +1,6 @@
 // What a mesh is, as the server has measured it, in words and in the project's unit.
 import { number, withUnit } from "./format";
-import { unitLabel, unitOfText } from "./meshUnits";
+import { unitLabel, unitOfText, unitShort } from "./meshUnits";
 
 export interface MeshInfo {
   /** Meshes of the file; the first is measured. */
@@ -37,11 +37,9 @@ export interface InfoRow {
   hint?: string;
 }
 
-const SHORT: Record<string, string> = { m: "m", cm: "cm", mm: "mm", um: "µm", µm: "µm", nm: "nm", "25.4mm": "in" };
-
 /** The unit that lengths are shown in: the project's if it has a name, else millimetres. */
 export function shownUnit(text: string): { name: string; unit_m: number } {
-  const name = SHORT[text.replace(/\s/g, "")];
+  const name = unitShort(text);
   return name ? { name, unit_m: unitOfText(text)! } : { name: "mm", unit_m: 1e-3 };
 }
 

@@ -36,3 +36,8 @@ export const unitLabel = (text: string): string => {
   const unit_m = unitOfText(text);
   return (unit_m === null ? null : unitOfLength(unit_m)?.label) ?? text;
 };
+
+const SHORT: Record<string, string> = { m: "m", cm: "cm", mm: "mm", um: "µm", µm: "µm", nm: "nm", "25.4mm": "in" };
+
+/** The sign of a unit that has one. */
+export const unitShort = (text: string): string | undefined => SHORT[text.replace(/\s/g, "")];
