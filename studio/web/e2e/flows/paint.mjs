@@ -23,7 +23,7 @@ export default async function paint({ page, step, folder, until, equal, near, ok
     await page.getByTestId("project-up").selectOption("y");
     await open(page, "Paint");
     await page.getByTestId("paint-size").filter({ hasText: /mm/ }).waitFor();
-    equal(await page.getByTestId("paint-unit").locator("option:checked").textContent(), "Project's (mm)", "the unit");
+    equal(await page.getByTestId("paint-unit").locator("option:checked").textContent(), "mm, project's", "the unit");
     // The pebble is 48 mm high along z and 68 mm along y: with y upwards its picture from the front is another.
     const view = page.getByTestId("paint-view");
     await view.getByRole("button", { name: "front" }).click();

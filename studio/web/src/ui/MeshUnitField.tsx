@@ -46,4 +46,4 @@ export function MeshUnitField({ value, onChange, label = "Mesh unit", file, disa
   );
 }
 
-const unstated = (file: string): string => (/\.(gltf|glb)$/i.test(file) ? "File's (m)" : `Project's (${unitShort(project.value.mesh_unit) ?? project.value.mesh_unit})`);
+const unstated = (file: string): string => (/\.(gltf|glb)$/i.test(file) ? "m, file's" : `${unitShort(project.value.mesh_unit) ?? project.value.mesh_unit}, project's`);
