@@ -129,7 +129,7 @@ std::vector<CommandSettings> settings_of(const Program& program) {
 std::string welcome() {
   return std::string("asperity ") + kVersion +
          ": measures the fine surface of real objects and renders it to the hand\n\n"
-         "  asperity demo -o out     measure two simulated surfaces and compare them with the truth (seconds)\n"
+         "  asperity demo -o out     measure three simulated surfaces and compare them with the truth (seconds)\n"
          "  asperity import --help   begin with your own data: motion capture and an inertial sensor, or a table\n"
          "  asperity studio          scan, process, align, paint and render in a browser\n\n"
          "All commands: asperity --help. One of them: asperity help COMMAND. A verdict: asperity help CODE.\n";

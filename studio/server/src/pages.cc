@@ -8,6 +8,7 @@
 #include "paint/paint_page.h"
 #include "process/process_page.h"
 #include "scan/scan_page.h"
+#include "setup/setup_page.h"
 #include "study/study_page.h"
 
 namespace asperity::studio {
@@ -16,6 +17,7 @@ std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optiona
                                               const std::filesystem::path& recent) {
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
+  pages.push_back(make_setup_page(shared));
   pages.push_back(make_home_page(shared, recent));
   pages.push_back(make_add_page(shared));
   pages.push_back(make_scan_page(shared));

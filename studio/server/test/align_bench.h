@@ -37,6 +37,7 @@ class AlignBench : public PageRig<> {
     open(make_align_page(shared));
     document.edit("/align/paths", {"path.csv"}, "");
     document.edit("/align/mesh", "pebble.obj", "");
+    document.edit("/align/mesh_unit", "mm", "");
     document.edit("/align/T_mesh_world", json_of_pose(guess()), "");
   }
 

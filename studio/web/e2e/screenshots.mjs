@@ -21,7 +21,8 @@ const kSizes = [
   [390, 844],
 ];
 
-const kSettle_ms = 350;
+// Longer than a picture of a 3D view takes on a busy machine.
+const kSettle_ms = 700;
 const kTries = 20;
 
 const found = [];
@@ -76,12 +77,15 @@ try {
       await looks(page, name);
     } else {
       const studio = await startStudio(binary, folder);
-      await page.goto(studio.address);
-      await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
-      await prepare({ page, folder, asperity: (...args) => asperity(binary, args, folder) });
-      await looks(page, name, before);
-      await context.close();
-      await studio.stop();
+      try {
+        await page.goto(studio.address);
+        await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
+        await prepare({ page, folder, asperity: (...args) => asperity(binary, args, folder) });
+        await looks(page, name, before);
+      } finally {
+        await context.close();
+        await studio.stop();
+      }
     }
     if (complaints.length > 0) throw new Error(`${name}: the browser complained:\n  ${complaints.join("\n  ")}`);
     console.log(`  ${name}`);

@@ -1,6 +1,6 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, test } from "vitest";
 import { NewestWins } from "../src/pages/process/newestWins";
-import { currentIndex, knobs, withConfig, withoutScan, withScan, type ProcessSection } from "../src/pages/process/processing";
+import { currentIndex, cutoffWords, knobs, withConfig, withoutScan, withScan, type ProcessSection } from "../src/pages/process/processing";
 import type { ConfigField } from "../src/ui/configFields";
 
 const field = (path: string, type: ConfigField["type"], value: ConfigField["value"]): ConfigField => ({ path, type, value, default: value });
@@ -107,4 +107,10 @@ describe("one question at a time", () => {
     });
     expect(heard).toEqual(["first", "second"]);
   });
+});
+
+test("the cut-off is stated as a wavelength", () => {
+  expect(cutoffWords(0.1).replaceAll("\u202f", " ")).toBe("λc = 10.0 mm: longer waves are not part of the texture.");
+  expect(cutoffWords(1.25).replaceAll("\u202f", " ")).toContain("λc = 800 µm");
+  expect(cutoffWords(0)).toContain("No high-pass");
 });

@@ -154,7 +154,7 @@ AlignChoice choice_of_json(const Json& section) {
   out.paths = names_of(part(section, "paths", "the section"), "paths");
   out.mesh = text_of(part(section, "mesh", "the section"), "mesh");
   out.mesh_unit = text_of(part(section, "mesh_unit", "the section"), "mesh_unit");
-  unit_m(out);
+  if (!out.mesh_unit.empty()) parse_length_unit_m(out.mesh_unit, "the mesh's unit");
   out.textures = names_of(part(section, "textures", "the section"), "textures");
   out.config = settings_of(part(section, "config", "the section"), "config");
   out.picks = picks_of(part(section, "picks", "the section"));
@@ -165,12 +165,14 @@ AlignChoice choice_of_json(const Json& section) {
   return out;
 }
 
-double unit_m(const AlignChoice& choice) { return parse_length_unit_m(choice.mesh_unit, "the mesh's unit"); }
-
 bool is_of_scene(const AlignChoice& choice) { return choice.mesh.ends_with(".json"); }
 
+MeshReading reading_of(const AlignChoice& choice) {
+  return mesh_reading(choice.mesh, choice.mesh_unit, choice.project);
+}
+
 std::optional<double> unit_to_read_m(const AlignChoice& choice) {
-  return is_of_scene(choice) ? std::nullopt : std::optional(unit_m(choice));
+  return is_of_scene(choice) ? std::nullopt : std::optional(reading_of(choice).unit_m);
 }
 
 AreaConfig AlignChoice::Area::config() const {

@@ -11,13 +11,14 @@
 #include "asperity/pipeline/make_area.h"
 #include "asperity/pipeline/register_config.h"
 #include "asperity/studio/block.h"
+#include "setup/project_setup.h"
 
 namespace asperity::studio {
 
 // What the user has decided on the page Align, as the document's section "align" holds it:
 //   "paths"         recordings and CSV files that share one world frame, by their names in the project
 //   "mesh"          a mesh file, a scene.json to whose mesh scans are added, or ""
-//   "mesh_unit"     the length of its unit as text: "mm", "0.06m"
+//   "mesh_unit"     the length of its unit as text: "mm", "0.06m"; "": the project's, unless the file states one
 //   "textures"      texture files to lay along the paths instead of their own: none, one for all, or one a path
 //   "config"        settings of the registration that are not the default: dotted path -> text
 //   "picks"         [{"path":[x,y,z],"mesh":[x,y,z]}]: pairs of points, world and mesh frame, metres
@@ -54,7 +55,7 @@ struct AlignChoice {
 
   std::vector<std::string> paths;
   std::string mesh;
-  std::string mesh_unit = "mm";
+  std::string mesh_unit;
   std::vector<std::string> textures;
   std::map<std::string, std::string> config;
   std::vector<Pick> picks;
@@ -62,6 +63,7 @@ struct AlignChoice {
   std::optional<Registered> registered;
   std::optional<LastRun> ran;
   Area area;
+  ProjectSetup project;  // not of the section
 };
 
 Json json_of_choice(const AlignChoice& choice);
@@ -71,9 +73,10 @@ Json json_of_last_run(const AlignChoice::LastRun& ran);
 // are not finite, a unit that is none, a setting that the registration does not know or take.
 AlignChoice choice_of_json(const Json& section);
 
-double unit_m(const AlignChoice& choice);
 // Whether the mesh is that of a scene.json, to which the scans are added.
 bool is_of_scene(const AlignChoice& choice);
+// How the mesh is read.
+MeshReading reading_of(const AlignChoice& choice);
 // The unit that the mesh is read in: nullopt for a scene, which has its own.
 std::optional<double> unit_to_read_m(const AlignChoice& choice);
 RegisterConfig config_of(const AlignChoice& choice);

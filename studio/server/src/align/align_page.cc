@@ -79,7 +79,11 @@ void AlignPage::bind(Document& document, Calls& calls) {
 
 void AlignPage::tick(std::int64_t) { send_iterations(); }
 
-AlignChoice AlignPage::choice() const { return choice_of_json(shared_.document.section(kSection)); }
+AlignChoice AlignPage::choice() const {
+  AlignChoice out = choice_of_json(shared_.document.section(kSection));
+  out.project = project_setup(shared_.document);
+  return out;
+}
 
 Json AlignPage::ran() const { return shared_.document.section(kSection).value("ran", Json()); }
 
@@ -196,7 +200,7 @@ void AlignPage::run(const Request& request) {
   const std::shared_ptr<const AlignScene> scene = this->scene();
   const std::optional<Pose> guess = request.flag("guess") ? std::optional<Pose>(pose(*scene)) : std::nullopt;
   const AlignChoice by = choice();
-  const AlignChoice::LastRun ran{guess, by.paths, by.mesh, by.mesh_unit, by.config};
+  const AlignChoice::LastRun ran{guess, by.paths, by.mesh, reading_of(by).text, by.config};
   register_from(guess, by.config, guess ? "Registering from the pose shown" : "Registering from anywhere",
                 [this, request, ran = json_of_last_run(ran), from_here = guess.has_value()](std::exception_ptr error) {
                   try {
@@ -260,7 +264,7 @@ void AlignPage::follow_document() {
   const AlignChoice wanted = choice();
   if (running_ || !scene_ || !is_same_scene(scene_->of, wanted)) return;
   const auto& of = wanted.ran;
-  if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || of->mesh_unit != wanted.mesh_unit) {
+  if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || of->mesh_unit != reading_of(wanted).text) {
     sent_ran_ = Json();
     return forget_result();
   }
@@ -272,7 +276,8 @@ void AlignPage::follow_document() {
 
 void AlignPage::edited(const Edit& edit) {
   // A change of the files is followed once they are open.
-  if (edit.path == "/align" || edit.path.starts_with("/align/ran")) follow_document();
+  if (edit.path == "/align" || edit.path.starts_with("/align/ran") || edit.path.starts_with("/project"))
+    follow_document();
 }
 
 void AlignPage::accept(const Request& request) {

@@ -94,7 +94,7 @@ void show_points(AlignScene& scene) {
 }  // namespace
 
 bool is_same_scene(const AlignChoice& made, const AlignChoice& wanted) {
-  return made.paths == wanted.paths && made.mesh == wanted.mesh && made.mesh_unit == wanted.mesh_unit &&
+  return made.paths == wanted.paths && made.mesh == wanted.mesh && unit_to_read_m(made) == unit_to_read_m(wanted) &&
          point_settings(made) == point_settings(wanted);
 }
 
@@ -105,6 +105,7 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
   observer.update("reading", 0.0);
   const RegisterInput input = read_register_input(
       files_of(choice.paths, project), project.existing(choice.mesh).string(), unit_to_read_m(choice), {}, observer);
+  check_assumed_unit(input.mesh(), choice.mesh, reading_of(choice));
   observer.update("mesh", 0.2);
   auto out = std::make_shared<AlignScene>(AlignScene{choice,
                                                      MeshSurface(to_metres(input.mesh(), input.unit_m())),

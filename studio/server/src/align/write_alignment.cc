@@ -41,7 +41,7 @@ std::string command_of(const AlignChoice& choice, const Start& start, const std:
   std::string out = "asperity register";
   for (const std::string& path : choice.paths) out += " " + shell_quoted(path);
   if (name) out += " " + shell_quoted(choice.mesh);
-  if (!is_of_scene(choice)) out += " --mesh-unit " + shell_quoted(choice.mesh_unit);
+  if (!is_of_scene(choice)) out += " --mesh-unit " + shell_quoted(reading_of(choice).text);
   if (start.guess) {
     std::string numbers;
     for (const Json& number : json_of_pose(*start.guess)) {

@@ -12,7 +12,7 @@ namespace asperity::studio {
 // What a user has decided on the Feel page: the document's section "feel". Files are names in the project's folder.
 struct FeelChoices {
   std::string scene;                     // scene.json, its folder, or a mesh; empty: none, or the height maps
-  std::string mesh_unit;                 // of a mesh given alone: "mm", "0.06m"; empty: m
+  std::string mesh_unit;                 // of a mesh given alone: "mm", "0.06m"; empty: the project's
   std::vector<std::string> height_maps;  // images side by side instead of a scene (thesis Fig. 38)
   double tile_mm = 10.0;
   double range_mm = 2.5;

@@ -16,6 +16,9 @@ namespace {
 constexpr const char* kModelSlot = "feel.scene";
 constexpr const char* kSwapSlot = "feel.swap";
 
+// The project's unit is that of a mesh without one.
+bool changes_scene(const Edit& edit) { return edit.path == "/project" || edit.path.starts_with("/project/mesh_unit"); }
+
 }  // namespace
 
 FeelPage::FeelPage(Shared& shared, FeelConfig start)
@@ -63,7 +66,7 @@ void FeelPage::bind(Document& document, Calls& calls) {
 void FeelPage::start() { load(); }
 
 void FeelPage::edited(const Edit& edit) {
-  if (!edit.path.starts_with("/feel")) return;
+  if (!changes_scene(edit) && !edit.path.starts_with("/feel")) return;
   ++revision_;
   if (run_) run_->permit().limit(largest_force_N());
   // The device and its limit are none of the scene's.
@@ -73,7 +76,9 @@ void FeelPage::edited(const Edit& edit) {
 
 // While a scene is rendered, what is under the hand is changed by the one whose hand it is; others may make it safer.
 void FeelPage::check_edit(ClientId client, const Edit& edit) const {
-  if (state_ == State::kIdle || !edit.path.starts_with("/feel") || (belongs_to(client) && !visited_)) return;
+  if (state_ == State::kIdle || (!edit.path.starts_with("/feel") && !changes_scene(edit)) ||
+      (belongs_to(client) && !visited_))
+    return;
   const bool is_number = edit.path == "/feel/max_force_N" && edit.after.is_number();
   if (is_number && edit.after.get<double>() <= largest_force_N()) return;
   if (visited_) throw Advice("a study is running", "You can stop it or lower its largest force.");
@@ -96,7 +101,7 @@ void FeelPage::load() {
   }
   auto result = std::make_shared<std::shared_ptr<const LoadedScene>>();
   try {
-    FeelSetup setup = resolve_choices(chosen, start_, shared_.project);
+    FeelSetup setup = resolve_choices(chosen, start_, shared_.project, project_setup(shared_.document));
     loading_ = true;
     shared_.jobs.start(
         "Reading the scene", kModelSlot,

@@ -69,7 +69,7 @@ void FeelPage::begin(const Request& request) {
   check_start(kind, request);
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
-  opening->setup = resolve_choices(chosen, start_, shared_.project);
+  opening->setup = resolve_choices(chosen, start_, shared_.project, project_setup(shared_.document));
   opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
   open_in_job(request, opening, kind.title,
               [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {

@@ -43,7 +43,8 @@ std::vector<ConfigField> settable_fields(FeelConfig& config) {
 
 bool is_live(std::string_view path) { return path.starts_with("render."); }
 
-FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project) {
+FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project,
+                          const ProjectSetup& project_setup) {
   if (choices.empty()) throw Advice("no scene is chosen", "Choose a scene, a mesh or height maps.");
   FeelSetup out;
   out.config = start;
@@ -57,9 +58,8 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
   out.mapped = choices.mapped;
   if (!choices.scene.empty()) {
     out.input.scene = project.existing(choices.scene).string();
-    if (!choices.mesh_unit.empty()) {
-      out.input.mesh_unit_m = parse_length_unit_m(choices.mesh_unit, "the mesh's unit");
-    }
+    out.reading = mesh_reading(out.input.scene, choices.mesh_unit, project_setup);
+    if (out.reading.from != MeshReading::From::kFile) out.input.mesh_unit_m = out.reading.unit_m;
   }
   for (const std::string& image : choices.height_maps) {
     out.input.height_maps.push_back(project.existing(image).string());
@@ -74,6 +74,7 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
 
 Scene read_chosen_scene(FeelSetup& setup, const Observer& observer) {
   Scene scene = read_scene_input(setup.input, setup.config.feel, observer);
+  if (setup.input.height_maps.empty()) check_assumed_unit(scene.objects.front().mesh, setup.input.scene, setup.reading);
   for (const auto& [index, file] : setup.textures) {
     swap_texture(scene, index, read_texture(file, {}, observer), file.filename().string());
   }

@@ -12,6 +12,7 @@
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/project.h"
 #include "feel/feel_choices.h"
+#include "setup/project_setup.h"
 
 namespace asperity::studio {
 
@@ -26,6 +27,7 @@ bool is_live(std::string_view path);
 struct FeelSetup {
   FeelConfig config;
   SceneInput input;
+  MeshReading reading;  // of a mesh given alone
   std::map<int, std::filesystem::path> textures;
   std::string device;
   std::string replay;
@@ -34,7 +36,8 @@ struct FeelSetup {
 
 // Throws Error naming a file that is not in the project, a setting that a browser may not change or a value that it
 // does not take, an unknown device.
-FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project);
+FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, const Project& project,
+                          const ProjectSetup& project_setup = {});
 
 // Reads the scene, with other textures instead of its own where the user chose so. Not for the studio's
 // thread. Throws Error naming the file.

@@ -54,7 +54,8 @@ bool same_source(const FeelSetup& setup, const std::string& source, const std::s
 }
 
 std::string source_of(const FeelSetup& setup) {
-  std::string out = setup.input.scene + '\n' + number_text(setup.input.mesh_unit_m.value_or(0.0));
+  std::string out = setup.input.scene + '\n' + number_text(setup.input.mesh_unit_m.value_or(0.0)) +
+                    (setup.reading.from == MeshReading::From::kProject ? " assumed" : "");
   for (const auto& [index, file] : setup.textures) out += '\n' + std::to_string(index) + ' ' + file.string();
   return out;
 }

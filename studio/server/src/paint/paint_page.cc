@@ -19,6 +19,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "painting.h"
+#include "setup/project_setup.h"
 #include "write_target.h"
 
 namespace asperity::studio {
@@ -30,18 +31,20 @@ namespace fs = std::filesystem;
 // A scene as it was read, kept for the next stroke. Used by the jobs' thread alone.
 struct SceneCache {
   fs::path file;
-  double unit_m = 0.0;
+  MeshReading reading;
   fs::file_time_type written;
   std::optional<Scene> scene;
 
-  const Scene& read(const fs::path& wanted, double wanted_unit_m, const Observer& observer) {
+  const Scene& read(const fs::path& wanted, const MeshReading& how, const Observer& observer) {
     const fs::file_time_type now = fs::last_write_time(wanted);
-    if (!scene || file != wanted || unit_m != wanted_unit_m || written != now) {
+    if (!scene || file != wanted || reading.unit_m != how.unit_m || reading.from != how.from || written != now) {
       scene.reset();
-      const bool is_scene = wanted.extension() == ".json";
-      scene = read_painted_scene(wanted, is_scene ? std::nullopt : std::optional(wanted_unit_m), observer);
+      const bool is_stated = how.from == MeshReading::From::kFile;
+      Scene read = read_painted_scene(wanted, is_stated ? std::nullopt : std::optional(how.unit_m), observer);
+      check_assumed_unit(read.objects.front().mesh, wanted, how);
+      scene = std::move(read);
       file = wanted;
-      unit_m = wanted_unit_m;
+      reading = how;
       written = now;
     }
     return *scene;
@@ -113,13 +116,18 @@ class PaintPage : public Page {
     return out;
   }
 
+  MeshReading reading(const Painting& painting, const fs::path& file) const {
+    return mesh_reading(file, painting.unit, project_setup(shared_.document));
+  }
+
   void show(const Request& request) {
     const Painting painting = this->painting();
     const fs::path file = shared_.project.existing(painting.object);
     answer_by_job(shared_.jobs, request, "Painting", "paint",
-                  [cache = cache_, project = &shared_.project, painting, file](const Observer& observer) {
+                  [cache = cache_, project = &shared_.project, painting, file,
+                   reading = reading(painting, file)](const Observer& observer) {
                     observer.update("reading", 0.0);
-                    const Scene& scene = cache->read(file, painting.unit_m, observer);
+                    const Scene& scene = cache->read(file, reading, observer);
                     return painted_block(paint_all(scene, painting, *project, observer));
                   });
   }
@@ -134,9 +142,9 @@ class PaintPage : public Page {
     section["strokes"].push_back(std::move(stroke));
     const Stroke drawn = parse_painting(section).strokes.front();
     answer_by_job(shared_.jobs, request, "Path", "paint.path",
-                  [cache = cache_, painting, file, drawn](const Observer& observer) {
+                  [cache = cache_, file, drawn, reading = reading(painting, file)](const Observer& observer) {
                     observer.update("path", 0.0);
-                    const SceneObject& object = cache->read(file, painting.unit_m, observer).objects.front();
+                    const SceneObject& object = cache->read(file, reading, observer).objects.front();
                     const VirtualPath path = virtual_path(to_metres(object.mesh, object.unit_m), drawn.picks_m);
                     std::vector<double> p_m;
                     for (const Eigen::Vector3d& p : path.path.p_mesh_m) p_m.insert(p_m.end(), p.begin(), p.end());
@@ -165,10 +173,10 @@ class PaintPage : public Page {
     const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Writing " + name, "paint.write",
                   [cache = cache_, project = &shared_.project, hub = &shared_.hub, painting, file, target,
-                   name](const Observer& observer) {
+                   reading = reading(painting, file), name](const Observer& observer) {
                     OutputFolder folder(target, naming_added(is_our_folder));
                     const PaintedScene painted =
-                        paint_all(cache->read(file, painting.unit_m, observer), painting, *project, observer);
+                        paint_all(cache->read(file, reading, observer), painting, *project, observer);
                     for (const PaintedStroke& stroke : painted.strokes) {
                       if (!stroke.fault.empty()) throw Advice(stroke.fault, "Remove the stroke, or draw it again.");
                     }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/session/paint_scene.h"
@@ -87,7 +88,6 @@ Json textures_json(const SceneObject& object) {
 
 Json first_painting() {
   return {{"object", ""},
-          {"unit_m", 1.0},
           {"rings", 1},
           {"half_width_mm", 0.0},
           {"strokes", Json::array()},
@@ -101,7 +101,8 @@ Painting parse_painting(const Json& section) {
                  "paint");
   Painting out;
   out.object = text_of(section.at("object"), "the object");
-  out.unit_m = number_of(section.at("unit_m"), "the unit", 1e-9, 1e6);
+  if (const Json* unit_m = section.find("unit_m"))
+    out.unit = number_text(number_of(*unit_m, "the unit", 1e-9, 1e6)) + "m";
   out.coordinates.rings = static_cast<int>(number_of(section.at("rings"), "the number of rings", 0, 1000));
   out.coordinates.half_width_mm = number_of(section.at("half_width_mm"), "half the width", 0.0, 1e6);
   if (!section.at("strokes").is_array() || section.at("strokes").size() > kMostStrokes) {

@@ -24,8 +24,8 @@ struct Stroke {
 
 // The textures and their target, as the document's section "paint" states.
 struct Painting {
-  std::string object;   // mesh or scene in the project; empty: nothing
-  double unit_m = 1.0;  // of a mesh alone
+  std::string object;  // mesh or scene in the project; empty: nothing
+  std::string unit;    // of a mesh alone: "mm", "0.06m"; empty: the project's
   HapticCoordinatesConfig coordinates;
   std::vector<Stroke> strokes;       // in their order
   std::map<int, std::string> swaps;  // index: the texture, in the project, that replaces the scene's

@@ -2,7 +2,7 @@
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { open } from "../lib/ui.mjs";
+import { figure, open } from "../lib/ui.mjs";
 
 const kGravity_mps2 = 9.80665;
 
@@ -51,6 +51,18 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       equal(readFileSync(join(folder, "poses.csv"), "utf8"), tables.poses, "poses.csv");
     });
 
+    await step("a mesh that is added shows its information", async () => {
+      // A corner of 30 mm, and an open edge for each side of the face that is missing.
+      writeFileSync(join(outside, "corner.obj"), "v 0 0 0\nv 30 0 0\nv 0 30 0\nv 0 0 30\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+      await page.getByTestId("add-files").setInputFiles(join(outside, "corner.obj"));
+      await page.getByRole("button", { name: "Information on corner.obj" }).click();
+      const info = page.getByTestId("mesh-info");
+      await info.getByText("unlikely").waitFor(); // 42 m
+      equal(await figure(info, "Closed"), "No, 3 open edges", "closed");
+      equal((await figure(info, "Size")).replaceAll("\u202f", " "), "30.0 × 30.0 × 30.0 m", "size");
+      await page.getByRole("button", { name: "Information on corner.obj" }).click();
+    });
+
     await step("a folder is added with what is in it, under a free name", async () => {
       mkdirSync(join(folder, "more"));
       await page.getByTestId("add-folder").setInputFiles(join(outside, "more"));
@@ -87,7 +99,7 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       await until(() => existsSync(join(folder, "wave", "recording.json")), "the recording");
       // Its page opens with it; a wave in the air is not a surface.
       await page.locator('[aria-current="page"]', { hasText: "Process" }).waitFor();
-      await page.getByTestId("scans").getByText("wave").waitFor();
+      await page.getByTestId("scans").locator("span", { hasText: "wave" }).waitFor();
     });
 
     await step("a map of an instrument is shown with its roughness, and becomes a texture", async () => {

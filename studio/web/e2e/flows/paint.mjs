@@ -8,11 +8,43 @@ export default async function paint({ page, step, folder, until, equal, near, ok
 
   await step("choose the pebble and its unit", async () => {
     await page.getByTestId("paint-object").selectOption("pebble.obj");
-    await page.getByTestId("paint-size").filter({ hasText: "Check the unit." }).waitFor();
+    await page.locator(".page-side").getByText("states no unit").waitFor();
     await page.getByTestId("paint-unit").selectOption("mm");
     const size = page.getByTestId("paint-size").filter({ hasText: /mm/ });
     await size.waitFor();
     near(numberIn(await size.textContent()), 98, 8, "the pebble's length, mm");
+  });
+
+  await step("the project's unit and upward axis hold on the page, and each is a step that is undone", async () => {
+    await page.getByTestId("paint-unit").selectOption("");
+    await page.locator(".page-side").getByText("states no unit").waitFor();
+    await open(page, "Home");
+    await page.getByTestId("project-unit").selectOption("mm");
+    await page.getByTestId("project-up").selectOption("y");
+    await open(page, "Paint");
+    await page.getByTestId("paint-size").filter({ hasText: /mm/ }).waitFor();
+    equal(await page.getByTestId("paint-unit").locator("option:checked").textContent(), "mm, project's", "the unit");
+    // The pebble is 48 mm high along z and 68 mm along y: with y upwards its picture from the front is another.
+    const view = page.getByTestId("paint-view");
+    await view.getByRole("button", { name: "front" }).click();
+    const upY = await heightOnScreen(page, view);
+    await page.getByTestId("undo").click();
+    await view.getByRole("button", { name: "front" }).click();
+    const upZ = await heightOnScreen(page, view);
+    ok(upY > 1.2 * upZ, `the pebble's height to its width: ${upY} with y upwards, ${upZ} with z`);
+  });
+
+  await step("the mesh's information is in the project's unit", async () => {
+    const panel = page.getByTestId("mesh-info-panel");
+    await panel.getByRole("button", { name: "Mesh information" }).click();
+    const info = panel.getByTestId("mesh-info");
+    await info.waitFor();
+    equal(await figure(info, "Closed"), "Yes", "closed");
+    equal(await figure(info, "Connected parts"), "1", "parts");
+    equal(await figure(info, "Faults"), "None", "faults");
+    // An ellipsoid with half axes of 48, 34 and 24 mm has 164,000 mm³; its bumps of a few per cent add little.
+    near(numberIn(await figure(info, "Volume")), 164_000, 10_000, "the pebble's volume, mm³");
+    await panel.getByRole("button", { name: "Mesh information" }).click();
   });
 
   await step("a stroke by numbers", async () => {
@@ -89,4 +121,32 @@ export default async function paint({ page, step, folder, until, equal, near, ok
     const glb = await until(async () => ["textured.glb", "scene.glb", "object.glb"].map((name) => join(folder, "by_hand-gltf", name)).find(existsSync), "a .glb file");
     equal(readFileSync(glb).subarray(0, 4).toString("latin1"), "glTF", "magic of the glTF file");
   });
+}
+
+/** Height to width of what is not background in a view, by its picture. */
+async function heightOnScreen(page, view) {
+  await page.waitForTimeout(600);
+  const png = (await view.locator("canvas").screenshot()).toString("base64");
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+    const pen = canvas.getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const { data: rgba } = pen.getImageData(0, 0, image.width, image.height);
+    // The mesh is grey and shaded; grid, axes and background are the extremes of lightness or coloured.
+    const middle = [];
+    for (let y = 0; y < image.height; ++y) {
+      for (let x = 0; x < image.width; ++x) {
+        const at = 4 * (y * image.width + x);
+        if (Math.max(rgba[at], rgba[at + 1], rgba[at + 2]) < 215) middle.push([x, y]);
+      }
+    }
+    const extent = (axis) => {
+      const all = middle.map((one) => one[axis]).sort((a, b) => a - b);
+      return all[Math.floor(0.95 * all.length)] - all[Math.floor(0.05 * all.length)];
+    };
+    return extent(1) / extent(0);
+  }, png);
 }

@@ -3,7 +3,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { figure, open, type } from "../lib/ui.mjs";
 
-const kTabs = ["Path", "Spectrum", "Compliance", "Accuracy", "Dropped", "Settings", "Profile"];
+const kTabs = ["Path", "Spectrum", "Compliance", "Accuracy", "Quality", "Settings", "Profile"];
 
 export default async function process_({ page, step, folder, asperity, until, equal, near, ok, numberIn }) {
   await open(page, "Process");

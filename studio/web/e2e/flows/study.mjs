@@ -74,6 +74,16 @@ export default async function study({ page, studio, step, restart, folder, asper
       const off_mm = (place - middle) * perPixel_mm - (index === 0 ? -17 : 17);
       ok(Math.abs(off_mm) < 1, `letter ${index + 1} is ${off_mm} mm off its tile`);
     }
+    // A window that becomes narrow shows both tiles whole: 64 mm.
+    const before = page.viewportSize();
+    await page.setViewportSize({ width: 390, height: 844 });
+    await until(async () => {
+      const view = await page.getByTestId("feel-view").boundingBox();
+      if (!view) return false;
+      return (view.width * numberIn(await scale.textContent())) / (await scale.boundingBox()).width > 64;
+    }, "both tiles in a narrow window");
+    await page.setViewportSize(before);
+    await ready();
     const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
     const press = async () => {
       await page.mouse.move(box.x + box.width * 0.35, box.y + box.height * 0.45);

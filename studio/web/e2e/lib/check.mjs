@@ -17,8 +17,8 @@ export function near(value, expected, tolerance, what) {
 }
 
 /** Waits until `condition` gives something true, and gives that. */
-export async function until(condition, what) {
-  const end = Date.now() + kPatience_ms;
+export async function until(condition, what, patience_ms = kPatience_ms) {
+  const end = Date.now() + patience_ms;
   for (;;) {
     const value = await condition();
     if (value) return value;

@@ -12,7 +12,9 @@ export function pebbleObj(rings = 48, sectors = 96) {
     for (let k = 0; k < sectors; ++k) {
       const u = (2 * Math.PI * k) / sectors;
       const bump = 1 + Math.sin(v) * (0.05 * Math.sin(2 * u + 0.7) + 0.035 * Math.cos(3 * u) * Math.sin(v) + 0.03 * Math.cos(2 * v + u));
-      lines.push(`v ${48 * bump * Math.sin(v) * Math.cos(u)} ${34 * bump * Math.sin(v) * Math.sin(u)} ${24 * bump * Math.cos(v)}`);
+      const p = [48 * bump * Math.sin(v) * Math.cos(u), 34 * bump * Math.sin(v) * Math.sin(u), 24 * bump * Math.cos(v)];
+      // Rounded to a nanometre, so that the corners of a pole are one point.
+      lines.push(`v ${p.map((one) => Number(one.toFixed(6))).join(" ")}`);
     }
   }
   const at = (i, k) => i * sectors + (k % sectors) + 1;

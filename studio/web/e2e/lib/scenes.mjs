@@ -60,9 +60,10 @@ async function align({ page }) {
 
 /** A stroke over the pebble's top, as broad as a finger. */
 async function paint({ page }) {
+  await open(page, "Home");
+  await page.getByTestId("project-unit").selectOption("mm");
   await open(page, "Paint");
   await page.getByTestId("paint-object").selectOption("pebble.obj");
-  await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
   await type(page.getByRole("spinbutton", { name: /Half-width of the stroke/ }), 6);
   for (const point of [[-33, -7, 17], [0, -11, 23], [33, -7, 17]]) {
@@ -74,6 +75,10 @@ async function paint({ page }) {
 }
 
 const kPress_ms = 250;
+// The watchdog ends the force of a browser that other programs hold up: the picture waits for a quieter machine.
+const kQuiet_ms = 600_000;
+const kRamp_ms = 2000; // until the force is there in full
+const kPoll_ms = 100;
 
 async function feel({ page }) {
   await open(page, "Feel");
@@ -93,10 +98,11 @@ async function touch({ page }) {
   const fit = () => view.getByRole("button", { name: "fit" }).click();
   await fit();
   const box = await view.locator("canvas").boundingBox();
-  const to = (x, y, steps = 4) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
+  const to = (x, y, steps = 2) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
   // A browser that is held up loses the force; it is taken again as a user does. Without it a drag rotates the view.
+  // The view's own button: in a narrow window the one of the settings is not seen.
   const take = async () => {
-    const button = page.getByTestId("feel-take");
+    const button = page.getByTestId("feel-no-force").getByRole("button");
     if (!(await button.isVisible())) return true;
     await page.mouse.up();
     await button.click({ timeout: 1000 }).catch(() => {});
@@ -115,13 +121,16 @@ async function touch({ page }) {
       await page.waitForTimeout(kPress_ms);
       if (await hasTexture()) {
         heights = [y];
-        for (const x of [0.47, 0.53, 0.5]) await to(x, y, 15);
-        if ((await hasTexture()) && (await hasForce())) return true;
+        // Few events: each is a picture of the view, and a browser that only draws sends its heartbeat too late.
+        for (const x of [0.47, 0.53, 0.5]) await to(x, y, 5);
+        for (const end = Date.now() + kRamp_ms; Date.now() < end; await page.waitForTimeout(kPoll_ms)) {
+          if ((await hasTexture()) && (await hasForce())) return true;
+        }
       }
       await page.mouse.up();
     }
     return false;
-  }, "the texture under the tip");
+  }, "the texture under the tip", kQuiet_ms);
 }
 
 async function study({ page, folder, asperity }) {

@@ -6,6 +6,7 @@ import { edit, valueAt } from "../state/document";
 import { attempt, Button } from "../ui/Button";
 import { Dialog } from "../ui/Dialog";
 import { entries } from "../ui/entries";
+import { MeshInfoTable } from "../ui/MeshInfoPanel";
 import { complain } from "../ui/toast";
 import { add, added, adding, holdsHeights, isTable, stopAdding } from "./adding";
 import { chosenFiles, droppedFiles } from "./dropped";
@@ -16,6 +17,7 @@ import "./add.css";
 /** Files into the project's folder by button and by drop, and other programs' tables as recordings. */
 export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): void; onOpen(): void }) {
   const [importing, setImporting] = useState<string | null>(null);
+  const [looked, setLooked] = useState<string | null>(null);
   const [surface, setSurface] = useState<string | null>(null);
   const surfaces = entries.value.filter(({ kind }) => kind === "surface");
   const files = useRef<HTMLInputElement>(null);
@@ -82,6 +84,11 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
                       Open
                     </Button>
                   )}
+                  {entry?.kind === "mesh" && (
+                    <Button kind="quiet" label={`Information on ${name}`} pressed={looked === name} onClick={() => setLooked(looked === name ? null : name)}>
+                      Information
+                    </Button>
+                  )}
                   {holdsHeights(name) && (
                     <Button kind="quiet" label={`Heights of ${name}`} onClick={() => setSurface(name)}>
                       Heights
@@ -91,6 +98,11 @@ export function AddFiles({ open, onClose, onOpen }: { open: boolean; onClose(): 
                     <Button kind="quiet" label={`Import ${name}`} onClick={() => setImporting(name)}>
                       Import …
                     </Button>
+                  )}
+                  {looked === name && (
+                    <div class="add-info">
+                      <MeshInfoTable file={name} />
+                    </div>
                   )}
                 </li>
               );

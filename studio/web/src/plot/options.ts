@@ -25,7 +25,7 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y", ro
     labelSize: words.label ? 16 : 0,
     labelGap: 0,
     gap: 4,
-    size: side === "x" ? 22 : (room_px ?? ((_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)))),
+    size: side === "x" ? 22 : (room_px ?? ((_plot, words) => 12 + 7.3 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)))),
     space: side === "x" ? 64 : (_plot, _axis, _low, _high, room) => (room > kTall_px ? 44 : 26),
     grid: { stroke: line, width: 1, ...(logarithmic ? { filter: onlyDecades } : {}) },
     ticks: { stroke: line, width: 1, size: 4 },

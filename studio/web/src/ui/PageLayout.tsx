@@ -24,8 +24,9 @@ const PARTS: [Part, string][] = [
 
 /** The grid of a page: it fills the window, and only its panels scroll. A narrow window shows one part at a time. */
 export function PageLayout({ title, side, children, results, strip, stripHeight }: PageLayoutProps) {
-  const [part, setPart] = useState<Part>(side ? "side" : "middle");
+  const [chosen, setPart] = useState<Part>(side ? "side" : "middle");
   const has = { side: !!side, middle: true, results: !!results };
+  const part = has[chosen] ? chosen : "middle";
   return (
     <div class="page" data-part={part}>
       <h1 class="visually-hidden">{title}</h1>

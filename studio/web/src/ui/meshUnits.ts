@@ -30,3 +30,14 @@ export const unitOfLength = (unit_m: number): MeshUnit | null => meshUnits.find(
 
 /** A length as the document's text. */
 export const textOfLength = (unit_m: number): string => unitOfLength(unit_m)?.text ?? `${Number((unit_m * 1e3).toPrecision(12))}mm`;
+
+/** A unit in words: "Millimetre", or its length. */
+export const unitLabel = (text: string): string => {
+  const unit_m = unitOfText(text);
+  return (unit_m === null ? null : unitOfLength(unit_m)?.label) ?? text;
+};
+
+const SHORT: Record<string, string> = { m: "m", cm: "cm", mm: "mm", um: "µm", µm: "µm", nm: "nm", "25.4mm": "in" };
+
+/** The sign of a unit that has one. */
+export const unitShort = (text: string): string | undefined => SHORT[text.replace(/\s/g, "")];

@@ -24,11 +24,13 @@ export class Ground {
   private readonly grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private readonly axes = (["x", "y", "z"] as const).map((name) => ({
     name,
-    line: new LineSegments(new BufferGeometry(), new LineBasicMaterial()),
+    // As its letter: not hidden by what reaches beyond the fitted part.
+    line: new LineSegments(new BufferGeometry(), new LineBasicMaterial({ depthTest: false })),
     letter: new Sprite(new SpriteMaterial({ map: letterTexture(name), depthTest: false })),
   }));
 
   constructor() {
+    for (const { line } of this.axes) line.renderOrder = 1;
     this.object.add(this.grid, ...this.axes.flatMap(({ line, letter }) => [line, letter]));
   }
 

@@ -47,6 +47,8 @@ export class View {
   private readonly observer: ResizeObserver;
   private readonly ease = new Ease();
   private frame = 0;
+  /** What was fitted, until the user moves the camera: it is fitted again where the window changes. */
+  private fitted: Box3 | null = null;
 
   /** Throws if the browser has no WebGL. */
   constructor(
@@ -63,6 +65,7 @@ export class View {
     this.scene.add(this.camera, new AmbientLight(0xffffff, 1.3), this.content, this.ground.object);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", this.invalidate);
+    this.controls.addEventListener("start", () => (this.fitted = null));
     this.observer = new ResizeObserver(this.resize);
     this.observer.observe(canvas.parentElement!);
     this.takeColours();
@@ -94,6 +97,7 @@ export class View {
   /** Shows an object, a box, or all of the content, from the position of the camera. */
   fit(what: Object3D | Box3 = this.content): void {
     const box = "isBox3" in what ? what.clone() : new Box3().setFromObject(what);
+    this.fitted = box.clone();
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-4);
@@ -120,6 +124,7 @@ export class View {
 
   /** Rotates by angles in radians, or comes nearer by a factor below 1. */
   orbit(right_rad: number, up_rad: number, nearer = 1): void {
+    this.fitted = null;
     const offset = this.camera.position.clone().sub(this.controls.target);
     const up = upOf(this.up);
     offset.applyAxisAngle(up, right_rad);
@@ -193,6 +198,7 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    if (this.fitted && !this.fitted.isEmpty()) this.fit(this.fitted);
     this.invalidate();
   };
 }

@@ -61,6 +61,7 @@ export function Viewport({ label, onReady, up = "-y", views = true, children, te
   return (
     <div class="viewport" data-testid={testId}>
       <canvas
+        key={up} // one that has lost its context cannot have another
         ref={canvas}
         tabIndex={0}
         role="img"

@@ -26,8 +26,13 @@ class UnlikelyMetres : public Error {
 // The length of the diagonal of the box around a mesh, m.
 double size_of_mesh_m(const MeshFile& mesh, double unit_m);
 
-// Throws UnlikelyMetres for a file that does not state its unit (scene.json and glTF do) and would be larger than 5 m
-// or smaller than 1 mm in metres.
+// Whether the format states the unit: scene.json and glTF do.
+bool states_its_unit(const std::filesystem::path& file);
+
+// Whether something of this size is likely to be scanned by hand: from 1 mm to 5 m; so is a mesh without a size.
+bool is_likely_size(double size_m);
+
+// Throws UnlikelyMetres for a file that does not state its unit and whose size in metres is not likely.
 void refuse_unlikely_metres(const MeshFile& mesh, const std::filesystem::path& file);
 
 }  // namespace asperity

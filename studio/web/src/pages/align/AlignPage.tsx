@@ -3,7 +3,8 @@ import { useEffect, useState } from "preact/hooks";
 import { PageLayout } from "../../ui/PageLayout";
 import { Tabs } from "../../ui/Tabs";
 import { AlignView } from "./AlignView";
-import { followAlign } from "./alignState";
+import { MeshInfoPanel } from "../../ui/MeshInfoPanel";
+import { align, followAlign } from "./alignState";
 import { AreaPanel } from "./AreaPanel";
 import { AreaResults } from "./AreaResults";
 import { AreaView } from "./AreaView";
@@ -36,6 +37,7 @@ export default function AlignPage() {
         ) : (
           <>
             <FilesPanel />
+            <MeshInfoPanel file={align.value?.mesh ?? ""} unit={align.value?.mesh_unit ?? ""} />
             <HandPanel />
             <PicksPanel />
           </>

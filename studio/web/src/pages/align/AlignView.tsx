@@ -6,6 +6,7 @@ import { attempt, Button } from "../../ui/Button";
 import { useKeys } from "../../ui/keys";
 import type { View } from "../../view3d/View";
 import { viewNames } from "../../view3d/views";
+import { project } from "../../state/project";
 import { Viewport } from "../../view3d/Viewport";
 import { AlignScene } from "./AlignScene";
 import { align, colouring, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showAreas, showing, showOverlaps, shown, shownPoses, take, tool } from "./alignState";
@@ -76,7 +77,7 @@ export function AlignView() {
       </div>
       <Viewport
         label="The mesh and the scan path, coloured by its distance to the mesh"
-        up="z"
+        up={project.value.up}
         testId="align-view"
         onReady={(made) => {
           view.current = made;

@@ -5,6 +5,7 @@ import type { Block } from "../../net/block";
 import { millimetres, number, percent } from "../../ui/format";
 import { Select } from "../../ui/Select";
 import type { View } from "../../view3d/View";
+import { project } from "../../state/project";
 import { Viewport } from "../../view3d/Viewport";
 import { align } from "./alignState";
 import { areaKey, holes, mapOf, mapPixels, mapRange, mapValues_um, type AreaMap, type MapQuantity } from "./area";
@@ -106,7 +107,7 @@ function Shown({ block, map }: { block: Block; map: AreaMap }) {
         </figure>
         <Viewport
           label="The mesh with the map on the patch of the strokes"
-          up="z"
+          up={project.value.up}
           testId="align-area-view"
           onReady={(made) => {
             setView(made);

@@ -4,11 +4,10 @@ import { edit } from "../../state/document";
 import { entries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
 import { MeshUnitField } from "../../ui/MeshUnitField";
-import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { Warning } from "../../ui/Warning";
-import { align, opened, type AlignSection } from "./alignState";
+import { align, opened, openFault, type AlignSection } from "./alignState";
 
 interface PathEntry {
   kind: "recording" | "path";
@@ -35,8 +34,9 @@ export function FilesPanel() {
         testId="align-mesh"
       />
       {!isScene(section.mesh) && <MeshUnitField
-        unit_m={unitOfText(section.mesh_unit) ?? 1}
-        onChange={(unit_m) => void change({ mesh_unit: textOfLength(unit_m) }, "change the mesh's unit").catch(complain)}
+        value={section.mesh_unit}
+        file={section.mesh}
+        onChange={(mesh_unit) => void change({ mesh_unit }, "change the mesh's unit").catch(complain)}
         testId="align-unit"
       />}
       <fieldset class="align-paths">
@@ -69,6 +69,7 @@ export function FilesPanel() {
           {points} points, {triangles} triangles
         </p>
       )}
+      {openFault.value && <Warning words={openFault.value} />}
       {((opened.value?.head.problems ?? []) as string[]).map((problem) => (
         <Warning key={problem} words={problem} />
       ))}

@@ -24,7 +24,7 @@ export function RunPanel() {
           hint={missing.value || "ICP from the current position of the path"}
           testId="align-run-here"
         >
-          From here
+          Refine current pose
         </Button>
         <Button
           onClick={() => register(false)}
@@ -32,7 +32,7 @@ export function RunPanel() {
           hint={missing.value || "Searches the whole mesh, without a guess"}
           testId="align-run-anywhere"
         >
-          From anywhere
+          Global search
         </Button>
         {running.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}
       </div>

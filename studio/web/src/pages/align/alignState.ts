@@ -1,9 +1,10 @@
 // What the Align page knows in addition to the document: the open mesh and path, the last registration, what is being shown.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { VerdictEntry } from "../../measured/verdicts";
-import { call, onEvent, subscribe } from "../../net/connection";
+import { call, onEvent, Refusal, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
+import { project } from "../../state/project";
 import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
 import type { AreaSection } from "./area";
@@ -18,6 +19,7 @@ import { ownPoses, type ScanPose } from "./scans";
 export interface AlignSection {
   paths: string[];
   mesh: string;
+  /** "": the project's, unless the file states one. */
   mesh_unit: string;
   textures: string[];
   config: Record<string, string>;
@@ -75,6 +77,8 @@ export const align = section<AlignSection | undefined>("align");
 export const opened = signal<Block | null>(null);
 /** Also before the page has begun to. */
 export const opening = signal(true);
+/** Why it could not be opened; "": it could. */
+export const openFault = signal("");
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
@@ -207,6 +211,7 @@ export async function open(): Promise<void> {
   try {
     const block = await call<Block>("align.open");
     if (!isNewest()) return;
+    openFault.value = "";
     opened.value = block;
     const last = await call<RunResult | null>("align.result");
     const all = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
@@ -216,7 +221,8 @@ export async function open(): Promise<void> {
   } catch (error) {
     if (!isNewest()) return;
     forget();
-    quietly(error);
+    if (error instanceof Refusal && error.message !== "cancelled") openFault.value = `${error.message}. ${error.hint}`;
+    else quietly(error);
   } finally {
     if (isNewest()) opening.value = false;
   }
@@ -234,6 +240,7 @@ function forget(): void {
 function close(): void {
   ++openings;
   opening.value = false;
+  openFault.value = "";
   forget();
 }
 
@@ -302,7 +309,7 @@ export function followAlign(): () => void {
     const { paths = [], mesh = "", mesh_unit = "", config = {} } = align.value ?? {};
     if (!documentIsRead.value || !mesh || paths.length === 0) return "";
     const points = Object.entries(config).filter(([path]) => path.startsWith("process.") || path.startsWith("points."));
-    return JSON.stringify([paths, mesh, mesh_unit, points]);
+    return JSON.stringify([paths, mesh, mesh_unit || project.value.mesh_unit, points]);
   });
   const ends = [
     effect(() => {

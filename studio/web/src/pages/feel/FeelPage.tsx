@@ -2,6 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { call, link } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { attempt } from "../../ui/Button";
+import { MeshInfoPanel } from "../../ui/MeshInfoPanel";
 import { PageLayout } from "../../ui/PageLayout";
 import { DevicePanel } from "./DevicePanel";
 import type { TextureHead, TextureIndex } from "./feelAreas";
@@ -46,6 +47,7 @@ export default function FeelPage() {
       side={
         <>
           <ScenePanel maps={maps} onMaps={(on) => setKind(on ? "maps" : "scene")} />
+          {!maps && <MeshInfoPanel file={feelSection.value?.scene ?? ""} unit={feelSection.value?.mesh_unit ?? ""} />}
           <DevicePanel {...depth} />
           <RenderingPanel />
           {block && !isViewer && <TexturesPanel textures={block.head.textures as TextureHead[]} indices={block.head.indices as TextureIndex[]} />}

@@ -4,6 +4,7 @@ import { dark } from "../../app/settings";
 import type { Block } from "../../net/block";
 import { seriesColour } from "../../plot/colours";
 import { fixed, withUnit } from "../../ui/format";
+import { project } from "../../state/project";
 import { leaseIsOthers } from "../../state/lease";
 import { Button } from "../../ui/Button";
 import type { View } from "../../view3d/View";
@@ -73,7 +74,8 @@ export function FeelView(props: FeelViewProps) {
   return (
     <Viewport
       label={isMouse ? "The scene. The pointer touches it: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
-      up="z"
+      // Height maps lie in the plane of x and y.
+      up={blind || block?.head.height_maps ? "z" : project.value.up}
       views={!blind}
       testId="feel-view"
       onReady={(made) => {

@@ -3,7 +3,6 @@ import { attempt } from "../../ui/Button";
 import { entries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
 import { MeshUnitField } from "../../ui/MeshUnitField";
-import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { NumberField } from "../../ui/NumberField";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
@@ -35,8 +34,9 @@ export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boole
       )}
       {!maps && isMesh && (
         <MeshUnitField
-          unit_m={unitOfText(chosen.mesh_unit ?? "") ?? 1}
-          onChange={(unit_m) => void attempt(() => edit("/feel/mesh_unit", textOfLength(unit_m), "change the mesh's unit"))}
+          value={chosen.mesh_unit ?? ""}
+          file={chosen.scene}
+          onChange={(unit) => void attempt(() => edit("/feel/mesh_unit", unit, "change the mesh's unit"))}
           testId="feel-unit"
         />
       )}

@@ -29,7 +29,7 @@ export function TouchPanel() {
       {state && state.limited.length > 0 && <p class="field-hint">{state.limited.map(causeWords).join(", ")}</p>}
       <Figures>
         <Figure label="Largest force" value={status?.max_force_N} unit="N" digits={3} testId="feel-limit" />
-        <Figure label="Gain of the ramp" value={state && 100 * state.gain} unit="%" digits={3} testId="feel-gain" />
+        <Figure label="Soft-start gain" value={state && 100 * state.gain} unit="%" digits={3} testId="feel-gain" />
         <Figure label="Loop" value={state && status ? status.rate_Hz : null} unit="Hz" />
         <Figure label="Delay of ticks, 99th percentile" value={withUnit(fixed(state?.late_p99_us, 1), "µs")} hint="Start of a tick after its due time, over one second" />
         <Figure label="Delay of ticks, maximum" value={withUnit(fixed(state?.late_max_us, 1), "µs")} />

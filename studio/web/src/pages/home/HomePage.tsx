@@ -13,6 +13,7 @@ import { entries, readEntries } from "../../ui/entries";
 import { documentAddress } from "../../ui/helpPage";
 import { complain, say } from "../../ui/toast";
 import { counts } from "./counts";
+import { ProjectSettings } from "./ProjectSettings";
 import "./home.css";
 
 interface Recent {
@@ -47,7 +48,7 @@ export default function HomePage() {
             Start the guided scan
           </Button>
         </Way>
-        <Way title="Open the sample project" words="Three simulated scans with their textures, and the profile of a real surface by a stylus instrument. They are put into the folder “sample”; about 20 seconds.">
+        <Way title="Open the sample project" words="Three simulated scans with their textures, and the profile of a real surface by a stylus instrument. They are put into the folder “sample” within seconds.">
           <Button kind="primary" onClick={openSample} testId="home-sample">
             Add the sample project
           </Button>
@@ -63,39 +64,47 @@ export default function HomePage() {
           <h2 id="home-here">In this folder</h2>
           <InThisFolder />
         </section>
-        <section aria-labelledby="home-recent">
-          <h2 id="home-recent">Recent projects</h2>
-          {recent.length === 0 && <p class="empty">No other projects yet.</p>}
-          <ul data-testid="home-recent">
-            {recent.map(({ folder, opened }) => (
-              <li key={folder}>
-                <span class="home-path" title={folder}>
-                  {folder}
-                </span>
-                <span class="home-date">{opened.slice(0, 10)}</span>
-                <Button kind="quiet" label={`Copy the command that opens ${folder}`} onClick={() => copyCommand(folder)}>
-                  Copy command
-                </Button>
-              </li>
-            ))}
-          </ul>
-          {recent.length > 0 && <p class="field-hint">A studio works in one folder. Enter the copied command in a terminal to open another.</p>}
-        </section>
-        <section aria-labelledby="home-read">
-          <h2 id="home-read">Read</h2>
-          <ul>
-            {READING.map(({ page, title }) => (
-              <li key={page}>
-                <a href={documentAddress(page)} target="_blank" rel="noopener">
-                  {title}
-                </a>
-              </li>
-            ))}
-          </ul>
-          <p class="field-hint">
-            <kbd>Ctrl</kbd> <kbd>K</kbd> finds every page, file and action. <kbd>?</kbd> shows the keys.
-          </p>
-        </section>
+        <div>
+          <section aria-labelledby="home-read">
+            <h2 id="home-read">Read</h2>
+            <ul>
+              {READING.map(({ page, title }) => (
+                <li key={page}>
+                  <a href={documentAddress(page)} target="_blank" rel="noopener">
+                    {title}
+                  </a>
+                </li>
+              ))}
+            </ul>
+            <p class="field-hint">
+              <kbd>Ctrl</kbd> <kbd>K</kbd> finds every page, file and action. <kbd>?</kbd> shows the keys.
+            </p>
+          </section>
+        </div>
+        <div>
+          <section aria-labelledby="home-project">
+            <h2 id="home-project">Project settings</h2>
+            <ProjectSettings />
+          </section>
+          <section aria-labelledby="home-recent">
+            <h2 id="home-recent">Recent projects</h2>
+            {recent.length === 0 && <p class="empty">No other projects yet.</p>}
+            <ul data-testid="home-recent">
+              {recent.map(({ folder, opened }) => (
+                <li key={folder}>
+                  <span class="home-path" title={folder}>
+                    {folder}
+                  </span>
+                  <span class="home-date">{opened.slice(0, 10)}</span>
+                  <Button kind="quiet" label={`Copy the command that opens ${folder}`} onClick={() => copyCommand(folder)}>
+                    Copy command
+                  </Button>
+                </li>
+              ))}
+            </ul>
+            {recent.length > 0 && <p class="field-hint">A studio works in one folder. Enter the copied command in a terminal to open another.</p>}
+          </section>
+        </div>
       </div>
     </div>
   );

@@ -2,16 +2,20 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import type { Block } from "../../net/block";
 import { call } from "../../net/connection";
 import { edit, newGesture, section } from "../../state/document";
+import { project } from "../../state/project";
 import { Button } from "../../ui/Button";
 import { FilePicker } from "../../ui/FilePicker";
 import { length } from "../../ui/format";
 import { useKeys } from "../../ui/keys";
+import { MeshInfoPanel } from "../../ui/MeshInfoPanel";
 import { MeshUnitField } from "../../ui/MeshUnitField";
+import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { PageLayout } from "../../ui/PageLayout";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { Slider } from "../../ui/Slider";
 import { complain } from "../../ui/toast";
+import { Warning } from "../../ui/Warning";
 import { chequer_mm, indexOf, type PaintSection, type Point, type SceneTextureName, type Show, type Stroke, type StrokeFigures, warpWords } from "./painting";
 import { type Hover, PaintView } from "./PaintView";
 import { StrokePanel } from "./StrokePanel";
@@ -35,23 +39,29 @@ export default function PaintPage() {
   const [show, setShow] = useState<Show>("coordinates");
   const [hover, setHover] = useState<Hover | null>(null);
   const [busy, setBusy] = useState(false);
+  const [fault, setFault] = useState("");
   const [brush, setBrush] = useState(false);
   const gesture = useRef("");
   const asked = useRef(0);
 
   useEffect(() => {
-    if (!paint.object) return setBlock(null);
+    if (!paint.object) return setBlock(null), setFault("");
     const mine = ++asked.current;
     setBusy(true);
     call<Block>("paint.show")
-      .then((shown) => mine === asked.current && setBlock(shown))
-      .catch((error: Error) => error.message !== "cancelled" && complain(error))
+      .then((shown) => mine === asked.current && (setBlock(shown), setFault("")))
+      .catch((error: Error & { hint?: string }) => {
+        if (error.message === "cancelled" || mine !== asked.current) return;
+        setBlock(null);
+        setFault(`${error.message}. ${error.hint ?? ""}`);
+      })
       .finally(() => mine === asked.current && setBusy(false));
-  }, [paint.object, paint.unit_m, paint.rings, paint.half_width_mm, paint.strokes, paint.swaps]);
+  }, [paint.object, paint.unit_m, project.value.mesh_unit, paint.rings, paint.half_width_mm, paint.strokes, paint.swaps]);
 
   const textures: SceneTextureName[] = block?.head.textures ?? [];
   const figures: StrokeFigures[] = block?.head.strokes ?? [];
   const stroke = paint.strokes[paint.current];
+  const unit = paint.unit_m === undefined ? "" : textOfLength(paint.unit_m);
   const cell_mm = chequer_mm(Math.max(...figures.map((one) => one.path_length_m ?? 0), 0.02));
 
   const begin = async (texture: string) => {
@@ -86,10 +96,13 @@ export default function PaintPage() {
             <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
               onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1, written: "" }, `open ${object}`).catch(complain)} />
             {paint.object && !paint.object.endsWith(".json") && (
-              <MeshUnitField unit_m={paint.unit_m} testId="paint-unit" onChange={(unit_m) => edit("/paint/unit_m", unit_m, "change the mesh's unit").catch(complain)} />
+              <MeshUnitField value={unit} file={paint.object} testId="paint-unit"
+                onChange={(text) => edit("/paint/unit_m", text === "" ? null : unitOfText(text), "change the mesh's unit").catch(complain)} />
             )}
-            {block && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}
+            {fault && <Warning words={fault} />}
+            {block && !fault && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}
           </Panel>
+          <MeshInfoPanel file={paint.object} unit={unit} />
           <Panel title="Texture">
             <FilePicker label={stroke ? "Of this stroke" : "Start a stroke with"} kinds={["texture"]} value={stroke?.texture ?? ""} disabled={!paint.object} testId="paint-texture"
               hint={paint.object ? undefined : "Choose a mesh first."}

@@ -1,9 +1,10 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { LineLoop, Mesh, Object3D, Vector3 } from "three";
 import type { Block } from "../../net/block";
 import { dark } from "../../app/settings";
 import { themeColour } from "../../plot/colours";
 import { lineFromPoints, sphere } from "../../view3d/helpers";
+import { project } from "../../state/project";
 import { Viewport } from "../../view3d/Viewport";
 import type { View } from "../../view3d/View";
 import { aim, extended, ring, spacing_m } from "./brush";
@@ -42,6 +43,7 @@ export function PaintView(props: PaintViewProps) {
   const marks = useRef<Object3D[]>([]);
   const balls = useRef<Mesh[]>([]);
   const object = useRef("");
+  const [ready, setReady] = useState(0);
   const now = useRef(props);
   now.current = props;
   const { block, strokes, current, show, cell_mm } = props;
@@ -55,7 +57,7 @@ export function PaintView(props: PaintViewProps) {
     const shape = JSON.stringify([block.head.low_m, block.head.high_m]);
     if (shape !== object.current) view.current.fit(mesh.current);
     object.current = shape;
-  }, [block]);
+  }, [block, ready]);
 
   useEffect(() => {
     if (!mesh.current || !block) return;
@@ -83,15 +85,16 @@ export function PaintView(props: PaintViewProps) {
         marks.current.push(view.current!.add(ball));
       }
     });
-  }, [block, strokes, current, dark.value]);
+  }, [block, strokes, current, dark.value, ready]);
 
   return (
     <Viewport
       label="The mesh with its textures and strokes"
-      up="z"
+      up={project.value.up}
       testId="paint-view"
       onReady={(made) => {
         view.current = made;
+        setReady((count) => count + 1);
         const end = listen(made, () => now.current, () => mesh.current, () => balls.current);
         return () => {
           end();

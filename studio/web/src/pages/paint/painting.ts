@@ -12,7 +12,8 @@ export interface Stroke {
 
 export interface PaintSection {
   object: string;
-  unit_m: number;
+  /** Missing: the project's, unless the file states one. */
+  unit_m?: number;
   rings: number;
   half_width_mm: number;
   strokes: Stroke[];

@@ -41,7 +41,7 @@ const TABS = [
   { id: "accuracy", label: "Accuracy" },
   { id: "repeatability", label: "Repeatability" },
   { id: "merge", label: "Merge" },
-  { id: "dropped", label: "Dropped" },
+  { id: "dropped", label: "Quality" },
   { id: "settings", label: "Settings" },
 ];
 const kPatience_ms = 1500;

@@ -41,13 +41,14 @@ export function TuningPanel({ fields }: { fields: readonly ConfigField[] }) {
 
 function KnobControl({ knob, field }: { knob: Knob; field: ConfigField | undefined }) {
   if (!field) return null;
+  const hint = typeof knob.hint === "string" ? knob.hint : knob.hint(Number(field.value));
   if (knob.kind === "toggle") {
-    return <Toggle label={knob.label} on={field.value === true} hint={knob.hint} onChange={(on) => set(knob.path, String(on))} testId={knob.path} />;
+    return <Toggle label={knob.label} on={field.value === true} hint={hint} onChange={(on) => set(knob.path, String(on))} testId={knob.path} />;
   }
   return (
     <Slider
       label={knob.label}
-      hint={knob.hint}
+      hint={hint}
       value={Number(field.value)}
       low={knob.low}
       high={knob.high}

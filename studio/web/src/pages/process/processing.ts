@@ -1,5 +1,6 @@
 // What the Process page keeps in the document, and what its forms make of it.
 import type { ConfigField } from "../../ui/configFields";
+import { length } from "../../ui/format";
 
 export interface ScanName {
   recording: string;
@@ -72,7 +73,8 @@ export function withoutScan(section: ProcessSection, index: number): ProcessSect
 export interface Knob {
   path: string;
   label: string;
-  hint: string;
+  /** Also of the value. */
+  hint: string | ((value: number) => string);
   kind: "slider" | "toggle";
   low: number;
   high: number;
@@ -82,8 +84,12 @@ export interface Knob {
 }
 
 const cutoff = (path: string): Knob => ({
-  path, label: "High-pass cut-off", hint: "Longer waves are not part of the texture.", kind: "slider", low: 0.01, high: 2, factor: 1, unit: "cycles/mm", logarithmic: true,
+  path, label: "High-pass cut-off", hint: cutoffWords, kind: "slider", low: 0.01, high: 2, factor: 1, unit: "cycles/mm", logarithmic: true,
 });
+
+/** The cut-off as the wavelength λc that standards state. */
+export const cutoffWords = (cycles_per_mm: number): string =>
+  cycles_per_mm > 0 ? `λc = ${length(1e-3 / cycles_per_mm, 3)}: longer waves are not part of the texture.` : "No high-pass: all waves are part of the texture.";
 
 /** The settings that are tuned most, by method. */
 export function knobs(method: string): Knob[] {
@@ -97,7 +103,7 @@ export function knobs(method: string): Knob[] {
   }
   return [
     cutoff("profile.cutoff_cycles_per_mm"),
-    { path: "base.contact.touch_N", label: "Force that counts as touching", hint: "Below it the tip is off the surface.", kind: "slider", low: 0.051, high: 2, factor: 1, unit: "N", logarithmic: true },
+    { path: "base.contact.touch_N", label: "Contact threshold", hint: "Below it the tip is off the surface.", kind: "slider", low: 0.051, high: 2, factor: 1, unit: "N", logarithmic: true },
     { path: "profile.max_stop_s", label: "Longest static interval", hint: "A longer static interval splits the profile.", kind: "slider", low: 0.05, high: 10, factor: 1, unit: "s", logarithmic: true },
     { path: "compliance.min_speed_mps", label: "Velocity threshold", hint: "Slower windows do not count for the compliance.", kind: "slider", low: 0.001, high: 0.05, factor: 1e3, unit: "mm/s" },
   ];

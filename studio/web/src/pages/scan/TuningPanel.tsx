@@ -7,6 +7,7 @@ import { Slider } from "../../ui/Slider";
 import { Toggle } from "../../ui/Toggle";
 import { complain } from "../../ui/toast";
 import { useState } from "preact/hooks";
+import { cutoffWords } from "../process/processing";
 import { setSettings, waitsForOpening } from "./settings";
 
 /** What is tuned while one looks at the profile (thesis §7.2), and the link to all settings. */
@@ -19,6 +20,7 @@ export function TuningPanel({ fields }: { fields: readonly ConfigField[] }) {
   return (
     <Panel title="Tune" collapsible testId="scan-tune">
       <Slider label="High-pass cut-off" low={0} high={2} step={0.01} unit="cycles/mm" value={number("process.profile.cutoff_cycles_per_mm")} testId="scan-cutoff"
+        hint={cutoffWords(number("process.profile.cutoff_cycles_per_mm"))}
         onInput={(cutoff, gesture) =>
           set({ "process.profile.cutoff_cycles_per_mm": String(cutoff), "process.thesis.profile.cutoff_cycles_per_mm": String(cutoff) }, "change the cut-off", gesture)} />
       <Slider label="Velocity threshold" low={0} high={0.05} step={0.0005} factor={1e3} unit="mm/s" value={number("live.min_speed_mps")} testId="scan-min-speed"
