@@ -98,9 +98,9 @@ ASPERITY_FEEL_API asperity_status asperity_scene_set_pose(asperity_scene *scene,
 /* Paints a *.texture.json along the shortest path over the surface through the points nearest to `points_m` (x, y, z
  * each, at least two, in the mesh's frame): onto the triangles within `half_width_m` of it, or for 0 onto those that it
  * touches and their neighbours. `index` from 0 names it: a texture of the same index of this object is replaced. The
- * texture's x is the distance along the path, 0 at the first point. In the profile that the texture was fitted to, x = 0
- * is the beginning of the fitted window: at s = texture.start_m of the result.json of `asperity process`, at the height
- * extra.fit.first_sample of a *.texture.json of `asperity texture fit`. */
+ * texture's x is the distance along the path, 0 at the first point. In the profile that the texture was fitted to, x =
+ * 0 is the beginning of the fitted window: at s = texture.start_m of the result.json of `asperity process`, at the
+ * height extra.fit.first_sample of a *.texture.json of `asperity texture fit`. */
 ASPERITY_FEEL_API asperity_status asperity_scene_paint(asperity_scene *scene, size_t object, const char *texture_path,
                                                        const double *points_m, size_t point_count, double half_width_m,
                                                        int index);
