@@ -87,13 +87,9 @@ Json textures_json(const SceneObject& object) {
 }  // namespace
 
 Json first_painting() {
-  return {{"object", ""},
-          {"rings", 1},
-          {"half_width_mm", 0.0},
-          {"strokes", Json::array()},
-          {"swaps", Json::object()},
-          {"current", -1},
-          {"written", ""}};
+  return {
+      {"object", ""},  {"rings", 1},   {"half_width_mm", 0.0}, {"strokes", Json::array()}, {"swaps", Json::object()},
+      {"current", -1}, {"written", ""}};
 }
 
 Painting parse_painting(const Json& section) {

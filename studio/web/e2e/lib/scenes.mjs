@@ -17,6 +17,7 @@ async function scan({ page }) {
   await page.getByTestId("scan-close").waitFor();
   await page.getByTestId("scan-start").click();
   const stop = page.getByTestId("scan-stop");
+  await until(() => stop.isEnabled(), "the scan's start");
   await until(async () => numberIn(await page.getByTestId("scan-recorded").textContent()) > 5 || !(await stop.isEnabled()), "five seconds of scan");
   // The bench's hand may have come to its end by then.
   if (await stop.isEnabled()) await stop.click({ timeout: 5000 }).catch(() => {});
