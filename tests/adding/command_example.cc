@@ -93,7 +93,7 @@ TEST(AddingACommand, ItIsInTheManualAndInTheCompletions) {
   Parser root("asperity", "");
   const std::unique_ptr<Command> command = make_lines(root);
   EXPECT_THAT(manual_page(root), testing::HasSubstr("Counts the lines of a file"));
-  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("lines"));
+  EXPECT_THAT(shell_completion("bash", root, {}), testing::HasSubstr("lines"));
 }
 
 // Values of an option are completed because it declares them, whether the parser checks them or the command does.
@@ -103,10 +103,11 @@ TEST(AddingACommand, TheValuesOfAnOptionAreCompletedForThisCommand) {
   std::string end, unit;
   command->parser().add_option("-e,--end", end, "How a line ends")->one_of({"lf", "crlf"});
   command->parser().add_option("--unit", unit, "Of the count")->suggest(std::vector<std::string>{"one", "dozen"});
-  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("\"lines --end\" | \"lines -e\") values=\"lf crlf\""));
-  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("\"lines --unit\") values=\"one dozen\""));
-  EXPECT_THAT(shell_completion("zsh", root), testing::HasSubstr("\"lines --unit\") values=(one dozen)"));
-  EXPECT_THAT(shell_completion("fish", root), testing::HasSubstr("from lines' -l unit -a 'one dozen' -r"));
+  EXPECT_THAT(shell_completion("bash", root, {}),
+              testing::HasSubstr("\"lines --end\" | \"lines -e\") values=\"lf crlf\""));
+  EXPECT_THAT(shell_completion("bash", root, {}), testing::HasSubstr("\"lines --unit\") values=\"one dozen\""));
+  EXPECT_THAT(shell_completion("zsh", root, {}), testing::HasSubstr("\"lines --unit\") values=(one dozen)"));
+  EXPECT_THAT(shell_completion("fish", root, {}), testing::HasSubstr("from lines' -l unit -a 'one dozen' -r"));
   std::string program = "asperity", name = "lines", option = "--end", value = "cr";
   std::array<char*, 4> words{program.data(), name.data(), option.data(), value.data()};
   EXPECT_EQ(root.parse(4, words.data()).kind, ParsedLine::Kind::kFault);

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "asperity/geometry/mesh_measures.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/scene/read_scene.h"
-#include "asperity/session/mesh_unit.h"
 #include "json_pose.h"
 
 namespace asperity::studio {

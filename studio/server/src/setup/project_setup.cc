@@ -5,7 +5,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
-#include "asperity/session/mesh_unit.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/studio/calls.h"
 #include "json_keys.h"
 

@@ -10,7 +10,8 @@ namespace asperity {
 // the motion. The length of the force would be a rectifier: what trembles across it would be lost.
 class VibrationAxis {
  public:
-  // The number of this tick, in newtons; 0 for a force that is not finite or a velocity beyond 1000 m/s. Realtime-safe: yes.
+  // The number of this tick, in newtons; 0 for a force that is not finite or a velocity beyond 1000 m/s. Realtime-safe:
+  // yes.
   double push(const Eigen::Vector3d& force_N, const Eigen::Vector3d& v_mps, std::int64_t t_ns) noexcept;
 
  private:
