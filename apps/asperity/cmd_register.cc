@@ -19,6 +19,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/json.h"
+#include "asperity/pipeline/process_methods.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/registration/manual_alignment.h"
@@ -139,6 +140,11 @@ class RegisterCommand : public Command {
     reads(into_.empty() ? files_.front() : into_, into_.empty() ? mesh_path : into_);
     RegisterInput input = read(mesh_path, unit_m, observer);
     const std::optional<Pose> guess = first_pose(input.unit_m());
+    if (!guess && ProcessMethods::get(config_.process.method).register_paths) {
+      throw UsageError(
+          "--method: registration by this method begins from a pose near the right one: give --guess, --align "
+          "or --picks");
+    }
     std::optional<SceneFolder> scene_folder;
     if (!into_.empty()) scene_folder.emplace(input.onto);
     reads(files_.front(), into_.empty() ? mesh_path : into_);

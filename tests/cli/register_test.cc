@@ -158,7 +158,7 @@ TEST_F(Register, TheThesisRegistersFromAGuess) {
   EXPECT_EQ(read_json(dir_ / "out" / "scene.json").at("textures").at(0).at("index"), 1);
 
   const Outcome blind = run(words);
-  EXPECT_EQ(blind.code, 1);
+  EXPECT_EQ(blind.code, 2);
   EXPECT_THAT(blind.err, HasSubstr("--guess"));
   Words unknown{"register", path("rec"), mesh(), "--method", "guessing", "-o", path("out2")};
   EXPECT_EQ(run(unknown).code, 2);
