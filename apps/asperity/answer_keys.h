@@ -12,6 +12,7 @@ class AnswerKeys {
  public:
   static constexpr char kEnd = 4;  // as Ctrl-D
 
+  // Throws UsageError for a terminal that another job has: to read from it would stop this one.
   AnswerKeys();
 
   bool is_terminal() const { return terminal_.active(); }

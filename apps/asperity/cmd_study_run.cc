@@ -11,6 +11,7 @@
 
 #include "answer_keys.h"
 #include "asperity/base/csv.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "asperity/device/device_registry.h"
 #include "asperity/json/json.h"
@@ -71,7 +72,11 @@ class StudyRunCommand : public Command {
 
   Stimuli read_textures(const Study& study) const {
     const fs::path folder = fs::path(input_).parent_path();
-    return read_stimuli(study, [&](const std::string& name) { return folder / name; });
+    return read_stimuli(study, [&](const std::string& name) {
+      const std::optional<fs::path> file = inner_file(folder.empty() ? fs::path(".") : folder, name);
+      if (!file) throw Error(name_of(input_) + ": " + printable(name, 200) + " is not in the folder of the study");
+      return *file;
+    });
   }
 
   void open_new() {
@@ -147,7 +152,8 @@ class StudyRunCommand : public Command {
 
   int ask(AnswerKeys& keys) {
     TrialRun run(session_->study(), stimuli_, *session_->trial(), settings_);
-    if (!log_) create_log();  // not before the device is there
+    run.await_start(interrupt_flag());
+    if (!log_ && !run.has_ended()) create_log();  // not before the device is there and runs
     for (const std::string& warning : run.warnings()) print_error(warning);
     begun_ = Clock::now();
     paused_ = false;
@@ -163,8 +169,9 @@ class StudyRunCommand : public Command {
     run.keep(false);
     const bool ended_itself = run.has_ended();
     const Verdicts verdicts = run.finish();
-    report(finished, verdicts);
+    if (log_) report(finished, verdicts);
     if (interrupted()) return interrupt_exit_code();
+    if (ended_itself && !log_) throw Error("the device has ended before the first trial; no log was made");
     if (ended_itself && !finished) throw Error("the device has ended; " + how_to_continue());
     return is_trustworthy(verdicts) ? kDone : kNotTrustworthy;
   }

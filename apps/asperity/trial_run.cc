@@ -1,5 +1,6 @@
 #include "trial_run.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -64,6 +65,9 @@ void TrialRun::run() {
         *device_, *scene_, settings_.servo, stop_,
         [this](const ServoTick& tick) {
           statistics_.add(tick);
+          started_.store(true);
+          if (interrupted()) stop_.store(true);  // whatever the other thread waits for
+          if (!counts_.load()) return;
           const std::lock_guard guard(touches_mutex_);
           touches_->add(tick);
         },
@@ -78,6 +82,7 @@ void TrialRun::run() {
 
 void TrialRun::watch() {
   auto touches = std::make_shared<TileTouches>(tile_of_triangle(study_), study_.presentation.least_force_N);
+  counts_.store(false);
   const std::lock_guard guard(touches_mutex_);
   touches_ = std::move(touches);
   kept_ = false;
@@ -98,9 +103,18 @@ void TrialRun::keep(bool wanted) {
   const Clock::time_point now = Clock::now();
   const bool given = wanted && now >= held_until_;
   given ? permit_.renew() : permit_.revoke();
-  if (given && kept_) felt_s_ += std::chrono::duration<double>(now - kept_at_).count();
+  if (given) counts_.store(true);
+  if (given && kept_) {
+    const double since_s = std::chrono::duration<double>(now - kept_at_).count();
+    felt_s_ += std::min(since_s, ForcePermit::kLasts_s);
+  }
   kept_ = given;
   kept_at_ = now;
+}
+
+void TrialRun::await_start(const std::atomic<bool>& stopped) const {
+  while (!started_.load() && !ended_.load() && !stopped.load())
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 Verdicts TrialRun::finish() {

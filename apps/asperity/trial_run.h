@@ -46,6 +46,8 @@ class TrialRun {
   double felt_s() const { return felt_s_; }
   std::array<TileTouch, 2> touches() const { return touches_->touches(); }
 
+  // Waits for the first tick, the end, or `stopped`.
+  void await_start(const std::atomic<bool>& stopped) const;
   // The device has ended, or has a fault.
   bool has_ended() const { return ended_.load(); }
   // Stops it; why it ended, and what is to be said of that. Throws what the loop threw.
@@ -59,7 +61,7 @@ class TrialRun {
   void run();
   void watch();
 
-  const Study& study_;
+  const Study study_;
   const Stimuli& stimuli_;
   FeelSettings settings_;
   DeviceKind kind_;
@@ -67,7 +69,8 @@ class TrialRun {
   std::unique_ptr<HapticDevice> device_;
   std::unique_ptr<SnapshotExchange<const RenderModel>> scene_;
   ForcePermit permit_;
-  std::atomic<bool> stop_{false}, ended_{false};
+  std::atomic<bool> stop_{false}, ended_{false}, started_{false};
+  std::atomic<bool> counts_{false};  // touches of this trial: none of the ramp of the one before
   std::mutex touches_mutex_;
   std::shared_ptr<TileTouches> touches_;
   Clock::time_point held_until_, kept_at_;

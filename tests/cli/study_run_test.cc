@@ -167,6 +167,14 @@ TEST_F(StudyRun, RefusesWhatItCannotRun) {
   for (const char* code : {"../p01", "p 01", ""}) {
     EXPECT_NE(ask(study(), "1", {"--participant", code}).code, 0) << code;
   }
+  // A study's names stay in its folder.
+  fs::create_directories(dir_ / "inner");
+  Json outside = study();
+  outside["stimuli"] = {"../low.texture.json", "../high.texture.json"};
+  write_text(dir_ / "inner" / "waves.study.json", outside.dump());
+  const Outcome climbed = ask_file("inner/waves.study.json", "1", {"--participant", "p04"});
+  EXPECT_EQ(climbed.code, 1);
+  EXPECT_THAT(climbed.err, HasSubstr("is not in the folder of the study"));
   Json missing = study();
   missing["stimuli"] = {"low.texture.json", "none.texture.json"};
   const Outcome absent = ask(missing, "1");

@@ -77,6 +77,37 @@ TEST(FindForceLimit, AConstantReadingWithoutAForceIsNone) {
   EXPECT_FALSE(find_force_limit(r).is_limited());
 }
 
+// The range in a recording is that of the inertial sensors; a force converter of 24 bit reads far beyond it.
+TEST(FindForceLimit, TheRangeOfAnotherConverterCountsForNothing) {
+  Recording r = pressed(10.0, 5.0);
+  for (double& counts : r.probe.force_counts) counts *= 800.0;
+  r.calibration.force.newton_per_count = kNewtonPerCount / 800.0;
+  r.info.adc_min = -32768.0;
+  r.info.adc_max = 32767.0;
+  EXPECT_FALSE(find_force_limit(r).is_limited());
+}
+
+// A sensor that cannot read below no load is at the end of its converter's range while it is lifted off.
+TEST(FindForceLimit, TheEndWithoutALoadIsNone) {
+  Recording r = pressed(10.0, 5.0);
+  const double no_load = -kOffset_N / kNewtonPerCount;
+  r.info.adc_min = no_load;
+  r.info.adc_max = 65535.0;
+  for (double& counts : r.probe.force_counts) counts = std::max(counts, no_load);
+  for (std::size_t i = 0; i < 1000; ++i) r.probe.force_counts[i] = no_load;
+  EXPECT_FALSE(find_force_limit(r).is_limited());
+}
+
+TEST(FindForceLimit, ASpikeHidesNoLimit) {
+  for (const double spike : {-10000.0, 4000.0}) {
+    Recording r = pressed(1.8, 5.0);
+    r.probe.force_counts[50] = spike;
+    const ForceLimit limit = find_force_limit(r);
+    EXPECT_TRUE(limit.is_limited()) << spike;
+    EXPECT_NEAR(limit.limit_N, 1.8, 1e-3) << spike;
+  }
+}
+
 TEST(FindForceLimit, ASensorThatIsPressedTowardsFewerCountsHasItsLimitThere) {
   Recording r = pressed(1.8, 5.0);
   r.calibration.force.newton_per_count = -kNewtonPerCount;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -218,11 +219,30 @@ StudyLog parse_study_log(std::string_view text, const std::string& name) {
   return out;
 }
 
+namespace {
+
+// Two programs would mix their rows.
+void lock(int file, const std::string& name) {
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw Error(name + ": another program is writing this log");
+}
+
+// Behind what was read there may be a row that was cut off, which ends without a line break.
+void refuse_added_rows(int file, const std::string& name, std::size_t whole_bytes) {
+  std::array<char, 4096> rest{};
+  const ssize_t count = ::pread(file, rest.data(), rest.size(), static_cast<off_t>(whole_bytes));
+  const std::string_view text(rest.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
+  if (text.find('\n') != std::string_view::npos) throw Error(name + ": has changed since it was read; open it again");
+}
+
+}  // namespace
+
 StudyLogFile StudyLogFile::create(const std::filesystem::path& file, std::string_view head) {
   const std::string name = file.filename().string();
   StudyLogFile out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666), name,
                    0);
   if (out.file_ < 0) fail(name, "cannot be made");
+  lock(out.file_, name);
   try {
     out.append(head);
   } catch (const Error&) {
@@ -234,8 +254,10 @@ StudyLogFile StudyLogFile::create(const std::filesystem::path& file, std::string
 
 StudyLogFile StudyLogFile::open(const std::filesystem::path& file, std::size_t whole_bytes) {
   const std::string name = file.filename().string();
-  StudyLogFile out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOFOLLOW), name, whole_bytes);
+  StudyLogFile out(::open(file.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW), name, whole_bytes);
   if (out.file_ < 0) fail(name, "cannot be written");
+  lock(out.file_, name);
+  refuse_added_rows(out.file_, name, whole_bytes);
   if (::ftruncate(out.file_, static_cast<off_t>(whole_bytes)) != 0) fail(name, "cannot be cut off after its last row");
   return out;
 }

@@ -330,12 +330,17 @@ TEST(StudyLog, RefusesWhatItIsNot) {
 TEST(StudyLogFile, IsNewAndGrows) {
   const testkit::TempDir folder;
   const std::filesystem::path file = folder / "a.study.csv";
-  StudyLogFile log = StudyLogFile::create(file, "head\n");
-  log.append("row\n");
-  log.sync();
-  EXPECT_EQ(read_file(file, 100), "head\nrow\n");
-  EXPECT_THROW(StudyLogFile::create(file, "head\n"), Error);
+  {
+    StudyLogFile log = StudyLogFile::create(file, "head\n");
+    log.append("row\n");
+    log.sync();
+    EXPECT_EQ(read_file(file, 100), "head\nrow\n");
+    EXPECT_THROW(StudyLogFile::create(file, "head\n"), Error);
+    EXPECT_THROW(StudyLogFile::open(file, 9), Error);  // one program at a time
+  }
   std::ofstream(file, std::ios::app) << "half a r";
+  EXPECT_THROW(StudyLogFile::open(file, 5), Error);  // a row came after it was read
+  EXPECT_EQ(read_file(file, 100), "head\nrow\nhalf a r");
   StudyLogFile again = StudyLogFile::open(file, 9);
   again.append("next\n");
   EXPECT_EQ(read_file(file, 100), "head\nrow\nnext\n");

@@ -106,7 +106,8 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
   }
   const double axes_chi2 = std::fmax(e.tracker_axes_chi2, e.accel_axes_chi2);
   const bool by_cut_peaks = e.clipped_share > kCutPeaks_share && !(e.tracker_axes_chi2 > kAxes_chi2) &&
-                            e.accel_axes_chi2 <= kAxesOfCutPeaks_chi2;
+                            e.accel_axes_chi2 <= kAxesOfCutPeaks_chi2 &&
+                            !(e.accel_motion_share > kUnexplainedMotion_share);
   if (axes_chi2 > kAxes_chi2 && by_cut_peaks) {
     out.push_back(
         make_verdict("peaks_clipped",

@@ -72,6 +72,9 @@ TEST(JudgeScan, CutPeaksAreNoWrongAxes) {
   e.accel_axes_chi2 = 400.0;
   EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
   e.accel_axes_chi2 = 38.0;
+  e.accel_motion_share = 0.5;
+  EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
+  e.accel_motion_share = 0.01;
   e.tracker_axes_chi2 = 38.0;
   EXPECT_EQ(codes(e), std::vector<std::string>{"motions_disagree"});
 }

@@ -23,13 +23,15 @@ struct ForceLimit {
   static constexpr double kLeast_share = 0.01;
 };
 
-// A reading is at the end of the range if
-// - it is at or beyond the converter's range that the recording states (adc_min, adc_max), or
-// - it is in a plateau: the channel's extreme value, on the side away from no load, has at least 8 times as many
-//   readings as the value next to it, and at least 8 times as many as the usual run of equal readings is long. A smooth
-//   peak that is rounded to counts is at its highest count for at most 1/(√2 − 1) = 2.4 times as long as at the next
-//   lower one; a signal that is cut off is there for all the time above. Readings that are held between two conversions
-//   make all runs longer alike.
+// A reading is at the end of the range, on either side of no load but not near it, if
+// - it is at the end of the converter's range that the recording states (adc_min, adc_max), and no reading lies beyond
+//   that range: it is the inertial sensors', and the force may have a converter of its own,
+// - or it is in a plateau: the outermost value (but for four single spikes) has at least 8 times as many readings as
+// the
+//   value next to it, and at least 8 times as many as the usual run of equal readings is long. A smooth peak that is
+//   rounded to counts is at its highest count for at most 1/(√2 − 1) = 2.4 times as long as at the next lower one; a
+//   signal that is cut off is there for all the time above. Readings that are held between two conversions make all
+//   runs longer alike.
 // A sensor that is too coarse to resolve a steady force has such a plateau as well; it does not show how the force
 // varied either. Of a sensor with three axes each channel is examined. A recording whose force never changes has none.
 ForceLimit find_force_limit(const Recording& recording);

@@ -37,12 +37,13 @@ struct StudyLog {
 // is not what the study and its seed give at this place.
 StudyLog parse_study_log(std::string_view text, const std::string& name);
 
-// A log that is being written.
+// A log that is being written, by one program at a time.
 class StudyLogFile {
  public:
   // A new file; throws Error if it cannot be made or is there already.
   static StudyLogFile create(const std::filesystem::path& file, std::string_view head);
-  // One that is there, its end cut off after `whole_bytes`. Throws Error.
+  // One that is there, its end cut off after `whole_bytes`. Throws Error; also where another program writes it, or has
+  // written a row behind them.
   static StudyLogFile open(const std::filesystem::path& file, std::size_t whole_bytes);
   StudyLogFile(StudyLogFile&& other) noexcept;
   StudyLogFile& operator=(StudyLogFile&& other) noexcept;
