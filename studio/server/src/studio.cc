@@ -61,7 +61,6 @@ class Studio {
     });
     for (const auto& page : pages_) page->start();
     for (const std::string& warning : server_->warnings()) notice(warning);
-    open_control();
     remember();
   }
 
@@ -72,6 +71,22 @@ class Studio {
   Studio& operator=(const Studio&) = delete;
 
   std::string address() const { return server_->address(); }
+
+  // Without a folder for its socket the studio runs all the same. Only after the address has been printed, so that what
+  // is printed is the first token, never one that was renewed meanwhile.
+  void open_control() {
+    try {
+      control_.emplace([this](const Json& request) {
+        Json answer = answer_control(request, *server_, project_.folder());
+        if (answer.contains("address") && !answer.contains("sessions")) {
+          notice("the token was renewed; the earlier address and all sessions are no longer valid");
+        }
+        return answer;
+      });
+    } catch (const Error& error) {
+      notice("--sessions and --new-token cannot reach this studio: " + std::string(error.what()));
+    }
+  }
 
   // What browsers have sent by now is done, and forces are at zero; then all is stored. Nothing that still waits may
   // run afterwards, for its pages are going. What could not be stored, in sentences; the second call has none.
@@ -135,21 +150,6 @@ class Studio {
       add_recent_project(config_.recent, {project_.folder().string(), utc_now(), server_->port()});
     } catch (const Error& error) {
       notice("the list of recent projects cannot be written: " + std::string(error.what()));
-    }
-  }
-
-  // Without a folder for its socket the studio runs all the same.
-  void open_control() {
-    try {
-      control_.emplace([this](const Json& request) {
-        Json answer = answer_control(request, *server_, project_.folder());
-        if (answer.contains("address") && !answer.contains("sessions")) {
-          notice("the token was renewed; the earlier address and all sessions are no longer valid");
-        }
-        return answer;
-      });
-    } catch (const Error& error) {
-      notice("--sessions and --new-token cannot reach this studio: " + std::string(error.what()));
     }
   }
 
@@ -233,6 +233,7 @@ void run_studio(const StudioConfig& config, const std::function<void(const std::
                 const std::atomic<bool>& stop) {
   Studio studio(config);
   started(studio.address());
+  studio.open_control();
   studio.run(stop);
   std::string all;
   for (const std::string& lost : studio.close()) all += (all.empty() ? "" : "\n") + lost;
