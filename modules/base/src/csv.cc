@@ -1,35 +1,21 @@
 #include "asperity/base/csv.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "open_file.h"
 
 namespace asperity {
 
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw Error(path.string() + ": no such file");
-  if (error) throw Error(path.string() + ": cannot be looked up: " + error.message());
-  if (!std::filesystem::is_regular_file(status)) throw Error(path.string() + ": not a regular file");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw Error(path.string() + ": " + error.message());
-  if (size > limit_bytes) {
-    throw Error(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " +
-                std::to_string(limit_bytes));
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path.string() + ": cannot be opened: " + std::strerror(errno));
-  std::string text(size, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  if (file.bad()) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  OpenFile file = open_file(path, limit_bytes);
+  std::string text(file.bytes, '\0');
+  file.stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  check_read(file.stream, path);
+  text.resize(static_cast<std::size_t>(file.stream.gcount()));
   return text;
 }
 

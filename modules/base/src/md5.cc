@@ -1,11 +1,13 @@
 #include "asperity/base/md5.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "asperity/base/little_endian.h"
+#include "open_file.h"
 
 namespace asperity {
 namespace {
@@ -59,24 +61,54 @@ void add_block(State& state, const char* block) {
 
 }  // namespace
 
-std::string md5_hex(std::string_view data) {
-  State state{0x67452301, 0xefcdab89, 0x98badcfe, 0x10325476};
-  std::size_t at = 0;
-  for (; at + 64 <= data.size(); at += 64) add_block(state, data.data() + at);
-  std::string tail(data.substr(at));
-  tail += '\x80';
-  while (tail.size() % 64 != 56) tail += '\0';
-  append_little_endian(tail, 8 * static_cast<std::uint64_t>(data.size()));
-  for (std::size_t i = 0; i < tail.size(); i += 64) add_block(state, tail.data() + i);
+void Md5::add(std::string_view piece) {
+  constexpr std::size_t kBlock = 64;
+  bytes_ += piece.size();
+  if (!rest_.empty()) {
+    const std::size_t taken = std::min(piece.size(), kBlock - rest_.size());
+    rest_.append(piece.substr(0, taken));
+    piece.remove_prefix(taken);
+    if (rest_.size() < kBlock) return;
+    add_block(state_, rest_.data());
+    rest_.clear();
+  }
+  for (; piece.size() >= kBlock; piece.remove_prefix(kBlock)) add_block(state_, piece.data());
+  rest_.assign(piece);
+}
+
+std::string Md5::hex() {
+  const std::uint64_t bits = 8 * bytes_;
+  std::string tail = "\x80";
+  while ((rest_.size() + tail.size()) % 64 != 56) tail += '\0';
+  append_little_endian(tail, bits);
+  add(tail);
   std::string out;
-  for (const std::uint32_t part : state) {
+  for (const std::uint32_t part : state_) {
     for (int byte = 0; byte < 4; ++byte) {
-      constexpr const char* kDigits = "0123456789abcdef";
-      out += kDigits[part >> (8 * byte + 4) & 0xF];
-      out += kDigits[part >> (8 * byte) & 0xF];
+      constexpr const char* kHexadecimal = "0123456789abcdef";
+      out += kHexadecimal[part >> (8 * byte + 4) & 0xF];
+      out += kHexadecimal[part >> (8 * byte) & 0xF];
     }
   }
   return out;
+}
+
+std::string md5_hex(std::string_view data) {
+  Md5 sum;
+  sum.add(data);
+  return sum.hex();
+}
+
+std::string md5_hex_of_file(const std::filesystem::path& path, std::uint64_t limit_bytes) {
+  OpenFile file = open_file(path, limit_bytes);
+  std::string piece(std::size_t{1} << 16, '\0');
+  Md5 sum;
+  do {
+    file.stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    check_read(file.stream, path);
+    sum.add(std::string_view(piece).substr(0, static_cast<std::size_t>(file.stream.gcount())));
+  } while (file.stream);
+  return sum.hex();
 }
 
 }  // namespace asperity

@@ -42,14 +42,14 @@ std::vector<double> high_pass_mirrored(std::span<const double> run, double cutof
 
 std::vector<double> extract_texture(std::span<const double> height_m, double spacing_m, double cutoff_cycles_per_mm,
                                     double bridge_m, std::span<const std::size_t> breaks, const Observer& observer) {
-  constexpr double kLowest_cycles_per_mm = 1e-9;  // a wave of a thousand kilometres
+  constexpr double kLowestCutoff_cycles_per_mm = 1e-9;  // a wave of a thousand kilometres
   if (!(cutoff_cycles_per_mm >= 0.0) || !(bridge_m >= 0.0)) {
     throw Error("texture: cut-off " + number_text(cutoff_cycles_per_mm) + " cycles/mm, bridge " +
                 number_text(bridge_m) + " m: neither may be negative");
   }
-  if (cutoff_cycles_per_mm > 0.0 && cutoff_cycles_per_mm < kLowest_cycles_per_mm)
+  if (cutoff_cycles_per_mm > 0.0 && cutoff_cycles_per_mm < kLowestCutoff_cycles_per_mm)
     throw Error("texture: a cut-off of " + number_text(cutoff_cycles_per_mm) +
-                " cycles/mm is not plausible: 0, or from " + number_text(kLowest_cycles_per_mm));
+                " cycles/mm is not plausible: 0, or from " + number_text(kLowestCutoff_cycles_per_mm));
   require_plausible_spacing(spacing_m, "texture");
   require_plausible_heights(height_m, "texture");
   const double rate_per_mm = 1e-3 / spacing_m;

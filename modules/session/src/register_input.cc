@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/md5.h"
 #include "asperity/base/text.h"
@@ -83,7 +82,7 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
 
 std::string recording_checksum(const fs::path& path) {
   constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{1} << 32;
-  if (!fs::is_directory(path)) return "md5:" + md5_hex(read_file(path, kLargestFile_bytes));
+  if (!fs::is_directory(path)) return "md5:" + md5_hex_of_file(path, kLargestFile_bytes);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(path)) {
     const fs::path ending = entry.path().extension();
@@ -92,7 +91,7 @@ std::string recording_checksum(const fs::path& path) {
   std::sort(files.begin(), files.end());
   std::string sums;
   for (const fs::path& file : files)
-    sums += file.filename().string() + " " + md5_hex(read_file(file, kLargestFile_bytes)) + "\n";
+    sums += file.filename().string() + " " + md5_hex_of_file(file, kLargestFile_bytes) + "\n";
   return "md5:" + md5_hex(sums);
 }
 
