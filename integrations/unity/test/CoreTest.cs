@@ -316,12 +316,12 @@ internal static class CoreTest
             "\"extra\": {\"mesh\": \"private.txt\", \"n\": [1, -2.5e-3, true, null, \"\\u00e4\\n\"]}, " +
             "\"objects\": [{\"mesh\": \"lid.gltf\", \"material\": \"map.json\", \"textures\": []}]}");
         Write(folder, "cup.obj", "mtllib cup colours.mtl\nmtllib gone.mtl\nv 0 0 0\n");
-        Write(folder, "lid.gltf", "{\"buffers\": [{\"uri\": \"lid%20data.bin\"}, {\"uri\": \"data:;base64,AA==\"}]}");
+        Write(folder, "lid.gltf", "{\"buffers\": [{\"uri\": \"lid%20data.bin\"}, {\"uri\": \"data:;base64,AA==\"}], \"images\": [{\"uri\": \"gone.png\"}, {\"uri\": \"../private.png\"}, {\"uri\": \"there.png\"}]}");
         Write(folder, "t/wood.texture.json", "{\"model\": \"heightmap\", \"heightmap\": {\"file\": \"wood.heights.png\"}}");
-        foreach (string name in new[] { "cup colours.mtl", "lid data.bin", "covered.json", "map.json", "t/wood.heights.png", "private.txt", "t/other.png" })
+        foreach (string name in new[] { "cup colours.mtl", "lid data.bin", "covered.json", "map.json", "t/wood.heights.png", "there.png", "private.txt", "t/other.png" })
             Write(folder, name, "{}");
         string found = string.Join("|", Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "a.scene.json")));
-        Expect(found == "a.scene.json|covered.json|cup colours.mtl|cup.obj|lid data.bin|lid.gltf|map.json|t/wood.heights.png|t/wood.texture.json", found);
+        Expect(found == "a.scene.json|covered.json|cup colours.mtl|cup.obj|lid data.bin|lid.gltf|map.json|t/wood.heights.png|t/wood.texture.json|there.png", found);
         Write(folder, "mesh.scene.json", "{\"mesh\": \"cup.obj\"}");
         foreach (string bad in new[] { "../private.txt", "t/../../private.txt", "/etc/hostname", "C:\\\\a.obj", "./cup.obj", "" })
         {
@@ -331,10 +331,24 @@ internal static class CoreTest
             Write(folder, "worse.scene.json", "{\"mesh\": \"cup.obj\", \"textures\": [{\"file\": \"bad.texture.json\"}]}");
             Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "worse.scene.json")), "not in the scene's folder");
         }
+        LinksAreRefused(folder);
         foreach (string bad in new[] { "", "{", "[]", "{\"mesh\" \"a\"}", "{\"mesh\": \"\\q\"}", "{} x", new string('[', 100000), "{\"mesh\": \"a", "nope" })
         {
             Write(folder, "bad.scene.json", bad);
             Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "bad.scene.json")), "bad.scene.json");
+        }
+    }
+
+    // A link leads to a file that may not be the scene's; a folder behind one likewise.
+    private static void LinksAreRefused(string folder)
+    {
+        if (Path.DirectorySeparatorChar != '/') return;
+        foreach (string link in new[] { "link.obj", "linked" })
+        {
+            using (System.Diagnostics.Process made = System.Diagnostics.Process.Start("ln", "-s \"" + Path.Combine(folder, link == "linked" ? "t" : "cup.obj") + "\" \"" + Path.Combine(folder, link) + "\""))
+                made.WaitForExit();
+            Write(folder, "link.scene.json", "{\"mesh\": \"cup.obj\", \"covered\": \"" + (link == "linked" ? "linked/wood.heights.png" : link) + "\"}");
+            Throws<IOException>(() => Asperity.Feel.Editor.SceneFiles.Of(Path.Combine(folder, "link.scene.json")), "which is a link or behind one");
         }
     }
 

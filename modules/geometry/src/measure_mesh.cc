@@ -140,17 +140,26 @@ std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const MeshAdja
 
 }  // namespace
 
-MeshMeasures measure_mesh(const TriangleMesh& given) {
+MeshMeasures measure_mesh(const TriangleMesh& given, const Observer& observer) {
+  constexpr const char* kStage = "measuring";
+  observer.update(kStage, 0.0);
   const TriangleMesh mesh = weld_vertices(given);
+  observer.update(kStage, 0.2);
   const MeshAdjacency adjacency = make_adjacency(mesh);
+  observer.update(kStage, 0.4);
   MeshMeasures out;
   out.triangles = mesh.triangles.size();
   measure_box(mesh, out);
   measure_triangles(mesh, out);
+  observer.update(kStage, 0.5);
   count_edges(mesh, adjacency, out);
+  observer.update(kStage, 0.6);
   measure_edges(mesh, adjacency, out);
+  observer.update(kStage, 0.7);
   out.parts = count_parts(mesh);
+  observer.update(kStage, 0.8);
   out.non_manifold_vertices = count_non_manifold_vertices(mesh, adjacency);
+  observer.update(kStage, 1.0);
   if (out.closed() && out.edges > 0 && out.flipped_edges == 0 && out.non_manifold_edges == 0)
     out.volume_m3 = signed_volume_m3(mesh, 0.5 * (out.low_m + out.high_m));
   return out;

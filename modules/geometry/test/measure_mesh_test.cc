@@ -188,5 +188,18 @@ TEST(MeasureMesh, NothingHasNoNumbersAndWrongIndicesAreRefused) {
   EXPECT_THROW(measure_mesh(wrong), Error);
 }
 
+TEST(MeasureMesh, CanBeStopped) {
+  TriangleMesh mesh;
+  mesh.vertices_m = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  mesh.triangles = {{0, 1, 2}};
+  int asked = 0;
+  measure_mesh(mesh, {{}, [&] { return ++asked < 0; }});
+  ASSERT_GE(asked, 5);
+  for (int last = 1; last <= asked; ++last) {
+    int again = 0;
+    EXPECT_THROW(measure_mesh(mesh, {{}, [&] { return ++again == last; }}), Cancelled) << last;
+  }
+}
+
 }  // namespace
 }  // namespace asperity

@@ -170,10 +170,13 @@ double strongest_direction_rad(const ArealMap& map) {
       const double fx = x_step * static_cast<double>(column);
       const double f = std::hypot(fx, fy);
       if (f < 1.5 * std::max(x_step, y_step)) continue;  // what the window makes of the mean
-      const bool is_alone = column == 0 || 2 * column == map.columns;
+      // On the axes the opposite wave is the same one; of the shortest waves along an axis two directions give the same
+      // heights, and each counts half.
+      const bool is_alone = column == 0 || row == 0;
+      const double share = !is_alone && (2 * column == map.columns || 2 * row == map.rows) ? 0.5 : 1.0;
       // A cell of the spectrum is as wide as half a step seen from the origin; half a degree at least.
       const double sigma = std::max(AngularPower::kWidth, 0.5 * std::max(x_step, y_step) / f);
-      angular.add(std::atan2(fy, fx), sigma, here[column], is_alone ? 0.0 : opposite[column]);
+      angular.add(std::atan2(fy, fx), sigma, share * here[column], is_alone ? 0.0 : share * opposite[column]);
     }
   }
   return angular.strongest_rad();

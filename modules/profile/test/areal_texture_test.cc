@@ -16,6 +16,7 @@
 #include "asperity/profile/measure_areal_texture.h"
 #include "robust_areal_filter.h"
 #include "robust_gaussian_filter.h"
+#include "surface_direction.h"
 
 namespace asperity {
 namespace {
@@ -80,6 +81,25 @@ TEST(ArealTexture, ALayHasItsDirection) {
 }
 
 // Independent heights: a box's curve is a straight line; volumes and core by its integral.
+// Each wave counts once, also one along an axis, or of the shortest length that a map can have.
+TEST(ArealTexture, OfTwoWavesTheStrongerOneIsTheLay) {
+  const auto of_two = [](double axis_power, const auto& on_axis) {
+    return lay_direction_rad(map_of(256, 256, 1e-6, 1e-6, [&](double x, double y) {
+      return std::sqrt(axis_power) * kA_m * on_axis(x, y) + kA_m * std::sin(2 * pi * (x + y) / std::sqrt(2.0) / 6.4e-6);
+    }));
+  };
+  const auto along_x = [](double x, double) { return std::sin(2 * pi * x / 6.4e-6); };
+  const auto along_y = [](double, double y) { return std::sin(2 * pi * y / 6.4e-6); };
+  // A direction is found to the cell of the spectrum: 6.4/256.
+  constexpr double kCell_rad = 6.4 / 256.0;
+  for (const double power : {0.75, 0.85}) {
+    EXPECT_NEAR(of_two(power, along_x), 0.75 * pi, kCell_rad) << power;
+    EXPECT_NEAR(of_two(power, along_y), 0.75 * pi, kCell_rad) << power;
+  }
+  EXPECT_NEAR(of_two(1.25, along_x), 0.5 * pi, kCell_rad);
+  EXPECT_NEAR(std::remainder(of_two(1.25, along_y), pi), 0.0, kCell_rad);
+}
+
 TEST(ArealTexture, TheMaterialCurveOfUniformHeights) {
   Random random(5);
   const ArealMap map = map_of(300, 300, 1e-6, 1e-6, [&](double, double) { return kA_m * random.uniform(); });

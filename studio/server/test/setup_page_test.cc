@@ -7,6 +7,7 @@
 
 #include "align/align_choice.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/testkit/temp_dir.h"
 #include "page_rig.h"
 #include "paint/paint_page.h"
 #include "setup/project_setup.h"
@@ -63,6 +64,22 @@ TEST_F(SetupPageTest, UnitOfThePageIsUsedFirst) {
   const Json found = info("corner.obj", "cm");
   EXPECT_EQ(found["unit_from"], "page");
   EXPECT_EQ(found["unit_m"], 0.01);
+}
+
+TEST_F(SetupPageTest, SceneOfAFolderMayNotLeadOutOfTheProject) {
+  const testkit::TempDir elsewhere;
+  write_corner(elsewhere / "corner.obj", "3");
+  const char* scene = R"({"format": "asperity-scene", "version": 1, "mesh": "corner.obj", "textures": []})";
+  std::ofstream(elsewhere / "scene.json") << scene;
+  fs::create_directory(folder / "linked");
+  fs::create_symlink(elsewhere / "scene.json", folder / "linked" / "scene.json");
+  write_corner(folder / "linked" / "corner.obj", "3");
+  EXPECT_THAT(call("mesh.info", Json{{"file", "linked"}, {"unit", ""}}).error,
+              HasSubstr("linked/scene.json: is not a name inside the project's folder"));
+  fs::create_directory(folder / "own");
+  std::ofstream(folder / "own" / "scene.json") << scene;
+  write_corner(folder / "own" / "corner.obj", "3");
+  EXPECT_EQ(info("own")["triangles"], 4);
 }
 
 TEST_F(SetupPageTest, UnitThatTheFileStatesIsNotTheProjects) {

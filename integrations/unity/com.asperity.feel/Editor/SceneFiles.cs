@@ -63,8 +63,9 @@ namespace Asperity.Feel.Editor
             if (ending == ".gltf")
             {
                 Dictionary<string, object> root = Json(mesh);
-                foreach (string kind in new[] { "buffers", "images" })
-                    foreach (object entry in List(root, kind)) AddUri(entry as Dictionary<string, object>, mesh);
+                foreach (object entry in List(root, "buffers")) AddUri(entry as Dictionary<string, object>, mesh, true);
+                // Pictures are only seen: the scene is felt without them.
+                foreach (object entry in List(root, "images")) AddUri(entry as Dictionary<string, object>, mesh, false);
             }
             if (ending != ".obj") return;
             foreach (string line in File.ReadLines(InFolder(mesh)))
@@ -78,12 +79,14 @@ namespace Asperity.Feel.Editor
             }
         }
 
-        private void AddUri(Dictionary<string, object> of, string mesh)
+        private void AddUri(Dictionary<string, object> of, string mesh, bool needed)
         {
             object uri;
             if (of == null || !of.TryGetValue("uri", out uri) || !(uri is string)) return;
             string text = (string)uri;
-            if (!text.StartsWith("data:", StringComparison.OrdinalIgnoreCase)) Add(FolderOf(mesh) + Uri.UnescapeDataString(text), mesh);
+            if (text.StartsWith("data:", StringComparison.OrdinalIgnoreCase)) return;
+            string name = FolderOf(mesh) + Uri.UnescapeDataString(text);
+            if (needed || (IsInside(name) && File.Exists(InFolder(name)))) Add(name, mesh);
         }
 
         // What `of` has under `key`, relative to `beside`; null if it has none.
@@ -98,8 +101,17 @@ namespace Asperity.Feel.Editor
         {
             if (!IsInside(name)) throw new IOException(InFolder(namer) + ": names '" + name + "', which is not in the scene's folder");
             if (!File.Exists(InFolder(name))) throw new IOException(InFolder(namer) + ": names '" + name + "', which is missing");
+            if (IsBehindLink(name)) throw new IOException(InFolder(namer) + ": names '" + name + "', which is a link or behind one; copy the file into the folder");
             names.Add(name);
             return name;
+        }
+
+        // A link may lead out of the folder, to a file that is not the scene's.
+        private bool IsBehindLink(string name)
+        {
+            for (string part = name; part.Length > 0; part = part.Substring(0, Math.Max(0, part.LastIndexOf('/'))))
+                if ((File.GetAttributes(InFolder(part)) & FileAttributes.ReparsePoint) != 0) return true;
+            return false;
         }
 
         private static bool IsInside(string name)

@@ -37,7 +37,7 @@ void add_shape(const MeshMeasures& found, Json& out) {
 
 }  // namespace
 
-Json mesh_info_json(const Scene& scene, const MeshReading& reading) {
+Json mesh_info_json(const Scene& scene, const MeshReading& reading, const Observer& observer) {
   const SceneObject& object = scene.objects.front();
   const MeshFile& mesh = object.mesh;
   const double unit_m = reading.from == MeshReading::From::kFile ? object.unit_m : reading.unit_m;
@@ -48,7 +48,7 @@ Json mesh_info_json(const Scene& scene, const MeshReading& reading) {
   out["unit_text"] = reading.text;
   out["likely"] = is_likely_size(size_of_mesh_m(mesh, unit_m));
   out["vertices"] = mesh.vertices.size();
-  add_shape(measure_mesh(to_metres(mesh, unit_m)), out);
+  add_shape(measure_mesh(to_metres(mesh, unit_m), observer), out);
   out["texture_coordinates"] = has_attribute(mesh.texture_corners);
   out["normals"] = has_attribute(mesh.normal_corners);
   out["textured_triangles"] = std::count_if(mesh.haptic.begin(), mesh.haptic.end(),
@@ -60,9 +60,7 @@ Json mesh_info_json(const Scene& scene, const MeshReading& reading) {
 
 Json read_mesh_info(const std::filesystem::path& file, const MeshReading& reading, const Observer& observer) {
   observer.update("reading", 0.0);
-  const Scene scene = read_scene(std::filesystem::is_directory(file) ? file / "scene.json" : file, observer);
-  observer.update("measuring", 0.5);
-  return mesh_info_json(scene, reading);
+  return mesh_info_json(read_scene(file, observer), reading, observer);
 }
 
 }  // namespace asperity::studio

@@ -19,9 +19,10 @@ namespace asperity::studio {
 //    "texture_coordinates","normals",           whether the file has any
 //    "textured_triangles",                      with haptic coordinates
 //    "problems":[text]}
-Json mesh_info_json(const Scene& scene, const MeshReading& reading);
+// Throws Cancelled.
+Json mesh_info_json(const Scene& scene, const MeshReading& reading, const Observer& observer = {});
 
-// The same of a file. Throws Error, Cancelled.
+// The same of a mesh or a scene.json. Throws Error, Cancelled.
 Json read_mesh_info(const std::filesystem::path& file, const MeshReading& reading, const Observer& observer);
 
 }  // namespace asperity::studio

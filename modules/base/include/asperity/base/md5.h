@@ -23,8 +23,8 @@ class Md5 {
 
 std::string md5_hex(std::string_view data);
 
-// The sum of a file, which is never in memory as a whole. Throws Error naming it if it is no regular file, has more than
-// `limit_bytes` or cannot be read.
+// The sum of a file, which is never in memory as a whole. Throws Error naming it if it is no regular file, has more
+// than `limit_bytes` or cannot be read.
 std::string md5_hex_of_file(const std::filesystem::path& path, std::uint64_t limit_bytes);
 
 }  // namespace asperity

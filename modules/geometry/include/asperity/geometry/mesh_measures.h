@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/triangle_mesh.h"
 
 namespace asperity {
@@ -34,8 +35,8 @@ struct MeshMeasures {
   bool closed() const { return triangles > 0 && open_edges == 0; }
 };
 
-// Throws Error for an index out of range. Of a mesh without triangles all counts are zero. Scale-free: a mesh scaled by
-// a power of two has the same counts.
-MeshMeasures measure_mesh(const TriangleMesh& mesh);
+// Throws Error for an index out of range, Cancelled. Of a mesh without triangles all counts are zero. Scale-free: a
+// mesh scaled by a power of two has the same counts.
+MeshMeasures measure_mesh(const TriangleMesh& mesh, const Observer& observer = {});
 
 }  // namespace asperity
