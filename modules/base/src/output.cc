@@ -7,52 +7,19 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <new>
 #include <random>
 #include <set>
 
 #include "asperity/base/error.h"
+#include "unfinished_output.h"
 
 namespace asperity {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// Is never destroyed: the thread that waits for signals may come while the program leaves.
-template <class Value>
-union Lasting {
-  Lasting() : value() {}
-  ~Lasting() {}  // NOLINT(modernize-use-equals-default): a default one is deleted
-  Value value;
-};
-
-std::mutex unfinished_mutex;
-Lasting<std::set<fs::path>> lasting_unfinished;
-std::set<fs::path>& unfinished = lasting_unfinished.value;
-
-void mark_unfinished(const fs::path& path) {
-  const std::lock_guard lock(unfinished_mutex);
-  unfinished.insert(path);
-}
-
-// Takes no memory: destructors call it.
-void mark_finished(const fs::path& path) noexcept {
-  const std::lock_guard lock(unfinished_mutex);
-  unfinished.erase(path);
-}
-
-// True if `path` lies in a folder that is still being written.
-bool is_in_unfinished_folder(const fs::path& path) {
-  const std::lock_guard lock(unfinished_mutex);
-  for (fs::path folder = path.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
-    if (unfinished.contains(folder)) return true;
-  }
-  return false;
-}
 
 std::string reason() { return std::strerror(errno); }
 
@@ -92,61 +59,6 @@ void sync(const fs::path& path, const fs::path& target) {
     throw Error(target.string() + ": cannot be written: " + std::strerror(error));
 }
 
-// What was put in place, for those who ask what an interrupted program leaves. Guarded by unfinished_mutex.
-constexpr std::size_t kMostNamed = 3;
-Lasting<std::vector<fs::path>> lasting_in_place;
-std::vector<fs::path>& in_place = lasting_in_place.value;
-std::size_t in_place_count = 0;
-bool is_ending = false;  // what was unfinished is removed, and what was put in place is about to be told
-
-// A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is
-// there must be told all the same.
-class OutputNote {
- public:
-  explicit OutputNote(fs::path path) : path_(std::move(path)) {
-    const std::lock_guard lock(unfinished_mutex);
-    in_place.reserve(kMostNamed);
-  }
-  void make() noexcept {
-    const std::lock_guard lock(unfinished_mutex);
-    make_locked();
-  }
-  // The same by who holds the mutex.
-  void make_locked() noexcept {
-    if (std::find(in_place.begin(), in_place.end(), path_) != in_place.end()) return;
-    if (in_place.size() < kMostNamed) in_place.push_back(std::move(path_));
-    ++in_place_count;
-  }
-
- private:
-  fs::path path_;
-};
-
-// Held while something is put in place: over the renames, the end of its entry in `unfinished`, and its note. The
-// thread that waits for signals removes what is unfinished and tells what is in place under the same mutex, so that it
-// sees all of this or nothing: it never says that nothing was written where something is, and never removes a folder
-// that was replaced, which has the temporary name after an exchange. Once it has removed, whoever comes here waits for
-// the program's end, or what it is about to say would be false.
-//
-// It cannot come to a deadlock: whoever holds the mutex locks nothing else, waits for nothing and calls nobody, but
-// renames or removes, which ends unless the disk hangs. On such a disk SIGKILL alone ends the program. Who waits for
-// the program's end does not hold it. What is done under this lock takes no memory: it cannot end halfway by the lack
-// of it.
-class PlacingLock {
- public:
-  PlacingLock() {
-    unfinished_mutex.lock();
-    while (is_ending) {
-      unfinished_mutex.unlock();
-      ::pause();
-      unfinished_mutex.lock();
-    }
-  }
-  ~PlacingLock() { unfinished_mutex.unlock(); }
-  PlacingLock(const PlacingLock&) = delete;
-  PlacingLock& operator=(const PlacingLock&) = delete;
-};
-
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // All files and folders below `folder`, by their relative paths; with an error, those before it.
@@ -158,18 +70,15 @@ std::set<fs::path> names_in(const fs::path& folder, std::error_code& error) {
   return out;
 }
 
-// By who holds a PlacingLock: what is in place is not unfinished any more.
-void end_placing(fs::path& temporary, OutputNote& note) noexcept {
-  unfinished.erase(temporary);
-  temporary.clear();
-  note.make_locked();
-}
-
 // Puts a folder where there is none; `temporary` is then empty. Throws Error.
 void place(fs::path& temporary, const fs::path& target, OutputNote& note) {
   {
     const PlacingLock lock;
-    if (::rename(temporary.c_str(), target.c_str()) == 0) return end_placing(temporary, note);
+    if (::rename(temporary.c_str(), target.c_str()) == 0) {
+      lock.end(temporary, &note);
+      temporary.clear();
+      return;
+    }
   }
   throw Error(target.string() + ": cannot be written: " + reason());
 }
@@ -186,14 +95,16 @@ fs::path exchange(fs::path& temporary, const fs::path& target, OutputNote& note)
     const PlacingLock lock;
     // Exchanging the two names leaves no moment without a whole folder in place.
     if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) {
-      end_placing(temporary, note);
+      lock.end(temporary, &note);
+      temporary.clear();
       return exchanged;
     }
     // Some file systems cannot (NFS, vfat, many of FUSE). Between these two renames nothing has the target's name
     // (docs/crashes.md).
     const bool is_moved = ::rename(target.c_str(), moved.c_str()) == 0;
     if (is_moved && ::rename(temporary.c_str(), target.c_str()) == 0) {
-      end_placing(temporary, note);
+      lock.end(temporary, &note);
+      temporary.clear();
       return moved;
     }
     error = errno;
@@ -257,10 +168,7 @@ void OutputFile::commit() {
   if (placed) {
     const PlacingLock lock;
     placed = ::rename(temporary_.c_str(), target_.c_str()) == 0;
-    if (placed) {
-      unfinished.erase(temporary_);
-      if (alone) note.make_locked();
-    }
+    if (placed) lock.end(temporary_, alone ? &note : nullptr);
   }
   if (!placed) throw Error(target_.string() + ": cannot be written: " + reason());
   close();
@@ -373,24 +281,6 @@ std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
     kept.push_back(name);
   }
   return kept;
-}
-
-void note_output(const fs::path& path) { OutputNote(path).make(); }
-
-std::string outputs_in_place() {
-  const std::lock_guard lock(unfinished_mutex);
-  std::string out;
-  for (const fs::path& path : in_place) out += (out.empty() ? "" : ", ") + path.string();
-  if (in_place_count > in_place.size()) out += " and others";
-  return out;
-}
-
-void remove_unfinished_output() {
-  const std::lock_guard lock(unfinished_mutex);
-  std::error_code ignored;
-  for (const auto& path : unfinished) fs::remove_all(path, ignored);
-  unfinished.clear();
-  is_ending = true;
 }
 
 }  // namespace asperity
