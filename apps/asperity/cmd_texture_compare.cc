@@ -252,7 +252,9 @@ class TextureCompareCommand : public Command {
         throw Error(file + ": is a force in time, which has no spectrum over lengths");
       lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
     } else {
-      const Heights heights = read_heights(file, settings_.input);
+      Problems problems;
+      const Heights heights = read_heights(file, settings_.input, &problems);
+      for (const Problem& problem : problems) print_error(printable(problem.message, 600));
       if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
         surface.spacing_m = profile->spacing_m;
         lines.push_back(profile->height_m);

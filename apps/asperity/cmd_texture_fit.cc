@@ -165,10 +165,12 @@ class TextureFitCommand : public Command {
     if (model_.empty() && settings_.fit.model == FittedModelChoice{} && is_stroke_folder(files_.front()))
       set_field(fields(), "fit.model", "autoregressive");
     TextureFitInput input;
+    Problems doubtful;
     input.files = files_;
     input.whole_path = settings_.fit.whole_path;
     input.read_heights = [&](const std::vector<std::string>& files) {
-      HeightProfile profile = read_strokes(files, settings_.input);
+      doubtful.clear();  // files may be read twice
+      HeightProfile profile = read_strokes(files, settings_.input, &doubtful);
       return HeightLine{std::move(profile.height_m), profile.spacing_m};
     };
     input.pitch_m = [&](const std::vector<std::string>& files) {
@@ -177,7 +179,7 @@ class TextureFitCommand : public Command {
       return found.periodic ? found.pitch_m : 0.0;
     };
     input.read_areal_samples = [&](const std::vector<std::string>& files) {
-      return asperity::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm);
+      return asperity::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm, &doubtful);
     };
     input.read_series = [](const std::string& file) { return asperity::app::read_series(file); };
     input.read_recording_or_series = [](const std::string& file) {
@@ -198,7 +200,9 @@ class TextureFitCommand : public Command {
           " is an XML file: models of the Penn Haptic Texture Toolkit are read with --model autoregressive");
     }
     try {
-      return fit_texture(settings_.fit.model, input, settings_.models);
+      FittedTexture fitted = fit_texture(settings_.fit.model, input, settings_.models);
+      fitted.problems.insert(fitted.problems.begin(), doubtful.begin(), doubtful.end());
+      return fitted;
     } catch (const TextureFitFilesError& error) {
       throw UsageError(error.what());
     }

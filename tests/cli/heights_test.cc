@@ -204,6 +204,10 @@ TEST_F(EveryHeightsFile, WarnsOfASumThatDoesNotHold) {
   EXPECT_EQ(exported.code, 0);
   EXPECT_THAT(exported.out, HasSubstr("warning: " + at("line.smd") + ": " + warning));
   EXPECT_FALSE(nlohmann::json::parse(cli::run({"roughness", at("x/line.x3p"), "--json"}).out).contains("problems"));
+  const Outcome fitted = cli::run({"texture", "fit", at("line.smd"), "-o", at("line.texture.json")});
+  EXPECT_EQ(fitted.code, 0) << fitted.err;
+  EXPECT_THAT(fitted.out, HasSubstr("note: " + at("line.smd") + ": " + warning));
+  EXPECT_THAT(cli::run({"texture", "compare", at("line.smd"), at("line.texture.json")}).err, HasSubstr(warning));
 }
 
 TEST_F(EveryHeightsFile, OfATiffIsRefusedWithoutASpacing) {

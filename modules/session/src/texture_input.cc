@@ -78,11 +78,11 @@ NamedFingerprint fingerprint_of(const std::string& file, const HeightProfile& pr
 
 bool is_texture_file(const std::string& file) { return file.ends_with(".json"); }
 
-HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config) {
+HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config, Problems* problems) {
   HeightProfile all;
   std::vector<NamedFingerprint> read;
   for (const std::string& file : files) {
-    const Heights heights = read_heights(file, config);
+    const Heights heights = read_heights(file, config, problems);
     const auto* profile = std::get_if<HeightProfile>(&heights);
     if (!profile) throw Error(file + ": is an areal map, but heights along a line are needed");
     read.push_back(fingerprint_of(file, *profile));
@@ -104,7 +104,7 @@ HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeig
 }
 
 std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& files, const ReadHeightsConfig& config,
-                                            double stroke_spacing_m) {
+                                            double stroke_spacing_m, Problems* problems) {
   std::vector<ArealSample> samples;
   std::size_t strokes = 0;
   std::vector<NamedFingerprint> read;
@@ -113,7 +113,7 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
       samples.insert(samples.end(), scattered->begin(), scattered->end());
       continue;
     }
-    const Heights heights = read_heights(file, config);
+    const Heights heights = read_heights(file, config, problems);
     if (const auto* map = std::get_if<ArealMap>(&heights)) {
       add_map(*map, samples);
       continue;

@@ -219,6 +219,16 @@ TEST(SurfaceFile, X3pChecksumsThatDoNotHoldAreProblems) {
     EXPECT_TRUE(problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}, {"md5checksum.hex", sum}}).empty()) << sum;
   EXPECT_TRUE(problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}}).empty());
 
+  // A checksum file that cannot be read is doubtful; the heights are whole.
+  const Problems too_large =
+      problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}, {"md5checksum.hex", std::string(70000, '0')}});
+  ASSERT_EQ(too_large.size(), 1U);
+  EXPECT_EQ(too_large[0].kind, "checksum");
+  // Of a thousand sums one is compared: each would take the time of the whole file.
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += std::string(32, '0') + " *main.xml\n";
+  EXPECT_EQ(problems_of({{"main.xml", xml}, {"d", data}, {"m", mask}, {"md5checksum.hex", many}}).size(), 1U);
+
   std::string changed = data;
   changed[3] = 1;
   const Problems of_all = problems_of(

@@ -113,6 +113,16 @@ TEST(FeelSetup, FilesStayInTheProject) {
   choices.textures.clear();
   choices.scene = "../outside.obj";
   EXPECT_THROW(resolve_choices(choices, {}, project), Error);
+  // A folder is inside; its scene may be a link that leads out.
+  std::ofstream(folder / "scene.json") << "{}";
+  std::filesystem::create_directory(folder / "project/linked");
+  std::filesystem::create_symlink(folder / "scene.json", folder / "project/linked/scene.json");
+  choices.scene = "linked";
+  EXPECT_THROW(resolve_choices(choices, {}, project), Error);
+  std::filesystem::create_directory(folder / "project/own");
+  std::ofstream(folder / "project/own/scene.json") << "{}";
+  choices.scene = "own";
+  EXPECT_EQ(std::filesystem::path(resolve_choices(choices, {}, project).input.scene).filename(), "scene.json");
 }
 
 TEST(FeelDevices, SayWhatTheyLack) {

@@ -117,6 +117,14 @@ ImportChoice import_choice(const Project& project, const Json& args) {
   return out;
 }
 
+// With the setting that the reader states.
+std::string with_example(const UnstatedSetting& unstated) {
+  constexpr std::string_view kSection = "mapping.";
+  std::string_view path = unstated.example().path;
+  if (path.starts_with(kSection)) path.remove_prefix(kSection.size());
+  return std::string(unstated.what()) + ", as " + std::string(path) + " = " + unstated.example().value;
+}
+
 Json import_plan(const ImportChoice& choice) {
   Json out{{"files", Json::array()}, {"checks", ""}, {"doubts", Json::array()}, {"fault", ""}};
   try {
@@ -127,6 +135,8 @@ Json import_plan(const ImportChoice& choice) {
     for (const ImportTable* table : tables.all()) out["files"].push_back(table_json(*table));
     out["checks"] = import_checks_text(motion) + tracker_sigma_text(tracker_sigma(motion.noise, {}));
     for (const ImportDoubt& doubt : motion.checks.doubts) out["doubts"].push_back(doubt_text(doubt, tables));
+  } catch (const UnstatedSetting& unstated) {
+    out["fault"] = with_example(unstated);
   } catch (const Error& error) {
     out["fault"] = error.what();
   }

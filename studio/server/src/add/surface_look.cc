@@ -103,15 +103,19 @@ std::string picture_of(const std::filesystem::path& file, double spacing_m) {
 }  // namespace
 
 Json look_at_surface(const std::filesystem::path& file, double spacing_m) {
-  const Heights heights = read_heights(file, input_config(spacing_m));
+  Problems problems;
+  const Heights heights = read_heights(file, input_config(spacing_m), &problems);
   Json out{{"kind", ""}, {"points", 0}, {"missing", 0}, {"size", ""}, {"picture", ""}, {"note", ""}};
   out["parameters"] = Json::array();
   try {
     std::visit([&](const auto& of) { look(of, out); }, heights);
     out["picture"] = picture_of(file, spacing_m);
   } catch (const Error& error) {
-    out["note"] = error.what();
+    problems.push_back({"not_shown", error.what(), 1});
   }
+  std::string note;
+  for (const Problem& problem : problems) note += (note.empty() ? "" : "; ") + problem.message;
+  out["note"] = note;
   return out;
 }
 

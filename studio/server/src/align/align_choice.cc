@@ -84,6 +84,7 @@ AlignChoice::LastRun last_run_of(const Json& json) {
   out.paths = names_of(part(json, "paths", "ran"), "ran.paths");
   out.mesh = text_of(part(json, "mesh", "ran"), "ran.mesh");
   out.mesh_unit = text_of(part(json, "mesh_unit", "ran"), "ran.mesh_unit");
+  if (!out.mesh_unit.empty()) parse_length_unit_m(out.mesh_unit, "ran.mesh_unit");
   if (json.contains("config")) out.config = settings_of(json.at("config"), "ran.config");
   return out;
 }

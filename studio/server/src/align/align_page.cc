@@ -42,6 +42,12 @@ std::string scene_version(const Project& project, const std::string& name) {
   }
 }
 
+// A file that states its unit has the same one in each run. Of others it is the length that counts, not its text.
+bool has_unit_of(const AlignChoice::LastRun& ran, const MeshReading& reading) {
+  if (reading.from == MeshReading::From::kFile) return true;
+  return parse_length_unit_m(ran.mesh_unit.empty() ? "m" : ran.mesh_unit, "the mesh's unit") == reading.unit_m;
+}
+
 }  // namespace
 
 void AlignPage::bind(Document& document, Calls& calls) {
@@ -264,7 +270,7 @@ void AlignPage::follow_document() {
   const AlignChoice wanted = choice();
   if (running_ || !scene_ || !is_same_scene(scene_->of, wanted)) return;
   const auto& of = wanted.ran;
-  if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || of->mesh_unit != reading_of(wanted).text) {
+  if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || !has_unit_of(*of, reading_of(wanted))) {
     sent_ran_ = Json();
     return forget_result();
   }
