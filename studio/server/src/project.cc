@@ -67,6 +67,19 @@ void list_folder(const fs::path& folder, const std::string& prefix, int depth, s
   }
 }
 
+// A folder that is opened is read by the names of what is in it: scene.json, texture.json, profile.csv.
+void check_links(const fs::path& project, const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const fs::path ending = at->path().extension();
+    if ((ending != ".json" && ending != ".csv") || !at->is_symlink(error)) continue;
+    const std::string name = at->path().lexically_relative(project).string();
+    if (inner_file(project, name)) continue;
+    throw Advice(printable(name, 200) + ": is a link that leads out of the project's folder",
+                 "Copy the file into the folder instead.");
+  }
+}
+
 }  // namespace
 
 bool is_taken(const fs::path& path) {
@@ -97,6 +110,7 @@ fs::path Project::existing(const std::string& name) const {
   if (!fs::exists(path, error))
     throw Advice(printable(name, 200) + ": is not in the project's folder",
                  "Choose a file of the folder, or copy this one into it.");
+  if (fs::is_directory(path, error)) check_links(folder_, path);
   return path;
 }
 

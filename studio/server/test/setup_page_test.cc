@@ -75,7 +75,7 @@ TEST_F(SetupPageTest, SceneOfAFolderMayNotLeadOutOfTheProject) {
   fs::create_symlink(elsewhere / "scene.json", folder / "linked" / "scene.json");
   write_corner(folder / "linked" / "corner.obj", "3");
   EXPECT_THAT(call("mesh.info", Json{{"file", "linked"}, {"unit", ""}}).error,
-              HasSubstr("linked/scene.json: is not a name inside the project's folder"));
+              HasSubstr("linked/scene.json: is a link that leads out of the project's folder"));
   fs::create_directory(folder / "own");
   std::ofstream(folder / "own" / "scene.json") << scene;
   write_corner(folder / "own" / "corner.obj", "3");

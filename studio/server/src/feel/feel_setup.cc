@@ -57,10 +57,7 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
   if (!choices.replay.empty()) out.replay = project.existing(choices.replay).string();
   out.mapped = choices.mapped;
   if (!choices.scene.empty()) {
-    std::filesystem::path scene = project.existing(choices.scene);
-    // The scene in a folder is looked up too: it may be a link that leads out of the project.
-    if (std::filesystem::is_directory(scene)) scene = project.existing(choices.scene + "/scene.json");
-    out.input.scene = scene.string();
+    out.input.scene = project.existing(choices.scene).string();
     out.reading = mesh_reading(out.input.scene, choices.mesh_unit, project_setup);
     if (out.reading.from != MeshReading::From::kFile) out.input.mesh_unit_m = out.reading.unit_m;
   }

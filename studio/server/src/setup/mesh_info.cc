@@ -60,7 +60,8 @@ Json mesh_info_json(const Scene& scene, const MeshReading& reading, const Observ
 
 Json read_mesh_info(const std::filesystem::path& file, const MeshReading& reading, const Observer& observer) {
   observer.update("reading", 0.0);
-  return mesh_info_json(read_scene(file, observer), reading, observer);
+  const Scene scene = read_scene(std::filesystem::is_directory(file) ? file / "scene.json" : file, observer);
+  return mesh_info_json(scene, reading, observer);
 }
 
 }  // namespace asperity::studio

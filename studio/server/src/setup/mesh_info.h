@@ -22,7 +22,7 @@ namespace asperity::studio {
 // Throws Cancelled.
 Json mesh_info_json(const Scene& scene, const MeshReading& reading, const Observer& observer = {});
 
-// The same of a mesh or a scene.json. Throws Error, Cancelled.
+// The same of a file, or of a folder's scene.json. Throws Error, Cancelled.
 Json read_mesh_info(const std::filesystem::path& file, const MeshReading& reading, const Observer& observer);
 
 }  // namespace asperity::studio

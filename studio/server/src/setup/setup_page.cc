@@ -16,9 +16,7 @@ class SetupPage : public Page {
   void bind(Document& document, Calls& calls) override {
     document.add_section(kProjectSection, json_of_setup({}), [](const Json& section) { setup_of_json(section); });
     calls.add("mesh.info", [this](const Request& request) {
-      std::filesystem::path file = shared_.project.existing(request.text("file"));
-      // The scene in a folder is looked up too: it may be a link that leads out of the project.
-      if (std::filesystem::is_directory(file)) file = shared_.project.existing(request.text("file") + "/scene.json");
+      const std::filesystem::path file = shared_.project.existing(request.text("file"));
       const std::string own = request.has("unit") ? request.text("unit") : "";
       answer_by_job(shared_.jobs, request, "", "mesh.info",
                     [file, reading = mesh_reading(file, own, project_setup(shared_.document))](

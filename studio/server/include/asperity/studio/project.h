@@ -31,7 +31,8 @@ class Project {
   std::vector<Entry> entries() const;
 
   // The path of something that exists. Throws Error naming it for an absolute name, one with `..`, one that is not
-  // UTF-8, is hidden or leads through a link out of the folder, and one that does not exist.
+  // UTF-8, is hidden or leads through a link out of the folder, one that does not exist, and a folder in which a .json
+  // or .csv is a link that leads out.
   std::filesystem::path existing(const std::string& name) const;
   // The path of something to be written: as above, but it need not exist; its parent must.
   std::filesystem::path writable(const std::string& name) const;
