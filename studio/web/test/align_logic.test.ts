@@ -3,6 +3,7 @@ import type { Block } from "../src/net/block";
 import { mainLine, noIterations, seriesOf, withBlock } from "../src/pages/align/iterations";
 import { latest } from "../src/pages/align/latest";
 import { missingWords } from "../src/pages/align/missing";
+import { openingKey } from "../src/pages/align/openingKey";
 import { nearestOnScreen, pointWords } from "../src/pages/align/picks";
 import { verdictWords } from "../src/pages/align/verdict";
 import { colourLimit_m, histogram, rampColour, residualColours } from "../src/pages/align/residuals";
@@ -33,6 +34,24 @@ it("says what is missing before scan and mesh can be worked on", () => {
   expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, true, true)).toMatch(/being opened/);
   expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, false, false)).toMatch(/choose/);
   expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, true, false)).toBe("");
+});
+
+describe("what is open", () => {
+  const glb = { paths: ["scan"], mesh: "b.glb", mesh_unit: "" };
+
+  it("is another where the page states the project's unit itself", () => {
+    expect(openingKey({ ...glb, mesh_unit: "mm" }, "mm")).not.toBe(openingKey(glb, "mm"));
+  });
+
+  it("is another in another unit of the project, with other scans and other settings of points", () => {
+    const others = [openingKey(glb, "mm"), openingKey(glb, "cm"), openingKey({ ...glb, paths: ["scan", "b"] }, "mm"), openingKey({ ...glb, config: { "points.count": "9" } }, "mm")];
+    expect(new Set(others).size).toBe(4);
+    expect(openingKey({ ...glb, config: { "search.starts": "9" } }, "mm")).toBe(others[0]);
+  });
+
+  it("is nothing without mesh or scans", () => {
+    expect([openingKey({}, "mm"), openingKey({ ...glb, mesh: "" }, "mm"), openingKey({ ...glb, paths: [] }, "mm")]).toEqual(["", "", ""]);
+  });
 });
 
 describe("iterations", () => {

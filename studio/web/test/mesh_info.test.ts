@@ -54,6 +54,8 @@ describe("mesh information", () => {
     expect(row(open, "mm", "Vertices")).toBe("36, 8 different");
     expect(row(open, "mm", "Faults")).toBe("2 degenerate triangles, 1 non-manifold vertex");
     expect(row({ ...cube, volume_m3: null, flipped_edges: 3 }, "mm", "Volume")).toBe("None: the faces contradict one another");
+    expect(row({ ...cube, volume_m3: null, non_manifold_edges: 2, flipped_edges: 2 }, "mm", "Volume")).toBe("None: edges of more than two triangles");
+    expect(row({ ...cube, volume_m3: null, triangles: 0, closed: false }, "mm", "Volume")).toBe("None: no triangles");
     expect(meshFaults(cube)).toEqual([]);
     expect(row({ ...cube, objects: 2 }, "mm", "Meshes in the file")).toBe("2; the first is shown here");
   });

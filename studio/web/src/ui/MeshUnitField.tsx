@@ -1,6 +1,6 @@
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { project } from "../state/project";
-import { meshUnits, textOfLength, unitOfLength, unitOfText, unitShort } from "./meshUnits";
+import { meshUnits, textOfLength, unitOfLength, unitInForce, unitOfText, unitShort } from "./meshUnits";
 import { NumberField } from "./NumberField";
 import { Select } from "./Select";
 
@@ -21,9 +21,10 @@ const kMost_m = 1e3;
 
 /** What one unit of a mesh file is: the file's or the project's, one of the usual ones, or any length. */
 export function MeshUnitField({ value, onChange, label = "Mesh unit", file, disabled, testId }: MeshUnitFieldProps) {
-  const unit_m = unitOfText(value) ?? 1;
+  const unit_m = unitOfText(unitInForce(file ?? "", value, project.value.mesh_unit)) ?? 1;
   const known = value === "" ? null : unitOfLength(unit_m);
   const [typing, setTyping] = useState(false);
+  useEffect(() => setTyping(false), [file]);
   const isOther = typing || (value !== "" && !known);
   const first = file === undefined ? [] : [{ value: "", label: unstated(file) }];
   return (

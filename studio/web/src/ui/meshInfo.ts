@@ -59,7 +59,10 @@ export function meshFaults(info: MeshInfo): string[] {
 
 function volumeWords(info: MeshInfo, name: string, unit_m: number): string {
   if (info.volume_m3 !== null) return withUnit(number(info.volume_m3 / unit_m ** 3, 4), `${name}³`);
-  return info.closed ? "None: the faces contradict one another" : "None: the mesh is open";
+  if (info.triangles === 0) return "None: no triangles";
+  if (!info.closed) return "None: the mesh is open";
+  if (info.non_manifold_edges > 0) return "None: edges of more than two triangles";
+  return "None: the faces contradict one another";
 }
 
 /** The rows of the table; `projectUnit` is the project's unit as text. */

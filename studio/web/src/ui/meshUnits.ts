@@ -37,6 +37,18 @@ export const unitLabel = (text: string): string => {
   return (unit_m === null ? null : unitOfLength(unit_m)?.label) ?? text;
 };
 
+/** Files that state their unit: of glTF files it is the metre, and a scene has its own. */
+const statesItsUnit = (file: string): boolean => /\.(json|gltf|glb)$/i.test(file);
+
+/** True of a mesh that is read in the project's unit; `own` is what a page has chosen for it, "": nothing. */
+export const takesProjectUnit = (file: string, own: string): boolean => file !== "" && own === "" && !statesItsUnit(file);
+
+/** The unit in which a mesh file is read, as text: the page's, else the file's or the project's. */
+export const unitInForce = (file: string, own: string, projectUnit: string): string => own || (statesItsUnit(file) ? "m" : projectUnit);
+
+/** True where two texts are the same length. */
+export const isSameUnit = (one: string, other: string): boolean => unitOfText(one) === unitOfText(other);
+
 const SHORT: Record<string, string> = { m: "m", cm: "cm", mm: "mm", um: "µm", µm: "µm", nm: "nm", "25.4mm": "in" };
 
 /** The sign of a unit that has one. */

@@ -17,6 +17,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { acceleratedRaycast } from "three-mesh-bvh";
 import { themeColour } from "../plot/colours";
 import { Ease } from "./ease";
+import { boxOfFitted, type Fitted } from "./fitted";
 import { Ground } from "./Ground";
 import { dispose } from "./helpers";
 import { listenToPointer, type PointerListener } from "./pointer";
@@ -48,7 +49,7 @@ export class View {
   private readonly ease = new Ease();
   private frame = 0;
   /** What was fitted, until the user moves the camera: it is fitted again where the window changes. */
-  private fitted: Box3 | null = null;
+  private fitted: Fitted | null = null;
 
   /** Throws if the browser has no WebGL. */
   constructor(
@@ -90,6 +91,7 @@ export class View {
   remove(object: Object3D | null | undefined): void {
     if (!object) return;
     object.removeFromParent();
+    if (this.fitted?.what === object) this.fitted = { ...this.fitted, what: null };
     dispose(object);
     this.invalidate();
   }
@@ -97,7 +99,11 @@ export class View {
   /** Shows an object, a box, or all of the content, from the position of the camera. */
   fit(what: Object3D | Box3 = this.content): void {
     const box = "isBox3" in what ? what.clone() : new Box3().setFromObject(what);
-    this.fitted = box.clone();
+    this.fitted = box.isEmpty() ? null : { what, box: box.clone() };
+    this.look(box);
+  }
+
+  private look(box: Box3): void {
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-4);
@@ -198,7 +204,8 @@ export class View {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (this.fitted && !this.fitted.isEmpty()) this.fit(this.fitted);
+    const fitted = this.fitted && boxOfFitted(this.fitted, this.content);
+    if (fitted) this.look(fitted.clone());
     this.invalidate();
   };
 }

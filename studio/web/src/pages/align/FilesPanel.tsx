@@ -30,7 +30,7 @@ export function FilesPanel() {
         label="Mesh"
         kinds={["mesh", "scene"]}
         value={section.mesh}
-        onChange={(mesh) => change({ mesh }, "choose a mesh")}
+        onChange={(mesh) => change({ mesh, mesh_unit: "" }, "choose a mesh")}
         testId="align-mesh"
       />
       {!isScene(section.mesh) && <MeshUnitField

@@ -5,12 +5,14 @@ import { call, onEvent, Refusal, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
 import { project } from "../../state/project";
+import { askShared, isCancelled } from "../../ui/askShared";
 import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
 import type { AreaSection } from "./area";
 import { noIterations, withBlock, type Iterations } from "./iterations";
 import { latest } from "./latest";
 import { missingWords } from "./missing";
+import { openingKey } from "./openingKey";
 import type { Pick } from "./picks";
 import { samePose, type Frame, type Point, type Pose } from "./pose";
 import type { Residuals } from "./residuals";
@@ -198,7 +200,7 @@ export function moveBySix(wanted: Six, gesture: string): void {
 }
 
 const quietly = (error: unknown): void => {
-  if (!(error instanceof Error && error.message === "cancelled")) complain(error);
+  if (!isCancelled(error)) complain(error);
 };
 
 let openings = 0;
@@ -208,10 +210,10 @@ export async function open(): Promise<void> {
   const number = ++openings;
   const isNewest = () => number === openings;
   opening.value = true;
+  openFault.value = "";
   try {
-    const block = await call<Block>("align.open");
+    const block = await askShared<Block>("align.open", {}, { title: `Opening ${align.value?.mesh}`, wanted: isNewest });
     if (!isNewest()) return;
-    openFault.value = "";
     opened.value = block;
     const last = await call<RunResult | null>("align.result");
     const all = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
@@ -221,7 +223,7 @@ export async function open(): Promise<void> {
   } catch (error) {
     if (!isNewest()) return;
     forget();
-    if (error instanceof Refusal && error.message !== "cancelled") openFault.value = `${error.message}. ${error.hint}`;
+    if (error instanceof Refusal && !isCancelled(error)) openFault.value = `${error.message}. ${error.hint}`;
     else quietly(error);
   } finally {
     if (isNewest()) opening.value = false;
@@ -305,12 +307,7 @@ export function followAlign(): () => void {
       if (running.value || showing.value !== "iteration") scrub.value = Math.max(0, iterations.value.poses.length - 1);
     });
   };
-  const what = computed(() => {
-    const { paths = [], mesh = "", mesh_unit = "", config = {} } = align.value ?? {};
-    if (!documentIsRead.value || !mesh || paths.length === 0) return "";
-    const points = Object.entries(config).filter(([path]) => path.startsWith("process.") || path.startsWith("points."));
-    return JSON.stringify([paths, mesh, mesh_unit || project.value.mesh_unit, points]);
-  });
+  const what = computed(() => (documentIsRead.value ? openingKey(align.value ?? {}, project.value.mesh_unit) : ""));
   const ends = [
     effect(() => {
       showing.value = "placed";

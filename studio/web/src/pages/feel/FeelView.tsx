@@ -13,6 +13,7 @@ import { pointOf, type Target } from "./drag";
 import type { TextureHead } from "./feelAreas";
 import { followPointer } from "./feelPointer";
 import { makeFeelScene } from "./feelScene";
+import { feelSection } from "./feelChoices";
 import { commandsRun, feelState, feelStatus, length3, takeRun } from "./feelStore";
 import { FORCES, ForceMarks } from "./ForceMarks";
 import { placeLetters, tileTops } from "./tileLetters";
@@ -42,6 +43,9 @@ export function FeelView(props: FeelViewProps) {
   const now = useRef(props);
   now.current = props;
   const { block, blind = false } = props;
+  // While a block is fetched, the kind of the last one: another upward axis would end the view and the pointer's target.
+  const flat = useRef((feelSection.value?.height_maps?.length ?? 0) > 0);
+  if (block) flat.current = block.head.height_maps === true;
   const isOurs = () => feelStatus.value?.visited === blind;
 
   useEffect(() => {
@@ -75,7 +79,7 @@ export function FeelView(props: FeelViewProps) {
     <Viewport
       label={isMouse ? "The scene. The pointer touches it: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
       // Height maps lie in the plane of x and y.
-      up={blind || block?.head.height_maps ? "z" : project.value.up}
+      up={blind || flat.current ? "z" : project.value.up}
       views={!blind}
       testId="feel-view"
       onReady={(made) => {
@@ -101,6 +105,7 @@ export function FeelView(props: FeelViewProps) {
           view.current = null;
           surface.current = null;
           marks.current = null;
+          target.current = null;
           shape.current = "";
         };
       }}

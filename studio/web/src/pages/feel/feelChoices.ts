@@ -22,6 +22,8 @@ export async function chooseScene(name: string): Promise<void> {
   const gesture = `scene ${Date.now()}`;
   if (feelSection.value?.height_maps?.length) await edit("/feel/height_maps", [], "remove the height maps", gesture);
   if (Object.keys(feelSection.value?.textures ?? {}).length) await edit("/feel/textures", {}, "the scene's own textures", gesture);
+  // A unit is that of the file for which it was chosen.
+  if (feelSection.value?.mesh_unit && name !== feelSection.value.scene) await edit("/feel/mesh_unit", "", "remove the former mesh's unit", gesture);
   await edit("/feel/scene", name, name ? `touch ${name}` : "no scene", gesture);
 }
 

@@ -1,22 +1,21 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Block } from "../../net/block";
-import { call } from "../../net/connection";
 import { edit, newGesture, section } from "../../state/document";
 import { project } from "../../state/project";
+import { askShared, isCancelled } from "../../ui/askShared";
 import { Button } from "../../ui/Button";
 import { FilePicker } from "../../ui/FilePicker";
 import { length } from "../../ui/format";
 import { useKeys } from "../../ui/keys";
 import { MeshInfoPanel } from "../../ui/MeshInfoPanel";
 import { MeshUnitField } from "../../ui/MeshUnitField";
-import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { PageLayout } from "../../ui/PageLayout";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { Slider } from "../../ui/Slider";
 import { complain } from "../../ui/toast";
 import { Warning } from "../../ui/Warning";
-import { chequer_mm, indexOf, type PaintSection, type Point, type SceneTextureName, type Show, type Stroke, type StrokeFigures, warpWords } from "./painting";
+import { chequer_mm, indexOf, type PaintSection, type Point, type SceneTextureName, type Show, type Stroke, type StrokeFigures, unitText, warpWords, withObject, withUnitText } from "./painting";
 import { type Hover, PaintView } from "./PaintView";
 import { StrokePanel } from "./StrokePanel";
 import { SwapPanel } from "./SwapPanel";
@@ -35,7 +34,7 @@ const SHOWS: { value: Show; label: string }[] = [
 /** Draw textures onto a mesh (thesis §5.4). */
 export default function PaintPage() {
   const paint = painting.value;
-  const [block, setBlock] = useState<Block | null>(null);
+  const [shown, setShown] = useState<{ of: string; block: Block } | null>(null);
   const [show, setShow] = useState<Show>("coordinates");
   const [hover, setHover] = useState<Hover | null>(null);
   const [busy, setBusy] = useState(false);
@@ -44,24 +43,30 @@ export default function PaintPage() {
   const gesture = useRef("");
   const asked = useRef(0);
 
+  // The former mesh is not shown while another one is read: clicks on it would be points of the new one.
+  const of = JSON.stringify([paint.object, paint.unit_m, project.value.mesh_unit]);
+  const block = shown?.of === of ? shown.block : null;
+
   useEffect(() => {
-    if (!paint.object) return setBlock(null), setFault("");
     const mine = ++asked.current;
+    if (!paint.object) return setShown(null), setFault(""), setBusy(false);
+    const isNewest = () => mine === asked.current;
     setBusy(true);
-    call<Block>("paint.show")
-      .then((shown) => mine === asked.current && (setBlock(shown), setFault("")))
+    if (!block) setFault("");
+    askShared<Block>("paint.show", {}, { title: "Painting", wanted: isNewest })
+      .then((made) => isNewest() && (setShown({ of, block: made }), setFault("")))
       .catch((error: Error & { hint?: string }) => {
-        if (error.message === "cancelled" || mine !== asked.current) return;
-        setBlock(null);
+        if (isCancelled(error) || !isNewest()) return;
+        setShown(null);
         setFault(`${error.message}. ${error.hint ?? ""}`);
       })
-      .finally(() => mine === asked.current && setBusy(false));
-  }, [paint.object, paint.unit_m, project.value.mesh_unit, paint.rings, paint.half_width_mm, paint.strokes, paint.swaps]);
+      .finally(() => isNewest() && setBusy(false));
+  }, [of, paint.rings, paint.half_width_mm, paint.strokes, paint.swaps]);
 
   const textures: SceneTextureName[] = block?.head.textures ?? [];
   const figures: StrokeFigures[] = block?.head.strokes ?? [];
   const stroke = paint.strokes[paint.current];
-  const unit = paint.unit_m === undefined ? "" : textOfLength(paint.unit_m);
+  const unit = unitText(paint);
   const cell_mm = chequer_mm(Math.max(...figures.map((one) => one.path_length_m ?? 0), 0.02));
 
   const begin = async (texture: string) => {
@@ -94,10 +99,10 @@ export default function PaintPage() {
         <>
           <Panel title="Mesh or scene to paint">
             <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
-              onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1, written: "" }, `open ${object}`).catch(complain)} />
+              onChange={(object) => edit("/paint", withObject(paint, object), `open ${object}`).catch(complain)} />
             {paint.object && !paint.object.endsWith(".json") && (
               <MeshUnitField value={unit} file={paint.object} testId="paint-unit"
-                onChange={(text) => edit("/paint/unit_m", text === "" ? null : unitOfText(text), "change the mesh's unit").catch(complain)} />
+                onChange={(text) => edit("/paint", withUnitText(paint, text, project.value.mesh_unit), "change the mesh's unit").catch(complain)} />
             )}
             {fault && <Warning words={fault} />}
             {block && !fault && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}

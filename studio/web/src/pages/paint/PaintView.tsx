@@ -49,8 +49,10 @@ export function PaintView(props: PaintViewProps) {
   const { block, strokes, current, show, cell_mm } = props;
 
   useEffect(() => {
-    if (!view.current || !block) return;
+    if (!view.current) return;
     view.current.remove(mesh.current);
+    mesh.current = null;
+    if (!block) return;
     mesh.current = makePaintedMesh(block);
     colourPaintedMesh(mesh.current, block, show, cell_mm);
     view.current.add(mesh.current);
@@ -66,10 +68,11 @@ export function PaintView(props: PaintViewProps) {
   }, [show, cell_mm, dark.value]);
 
   useEffect(() => {
-    if (!view.current || !block) return;
+    if (!view.current) return;
     for (const mark of marks.current) view.current.remove(mark);
     marks.current = [];
     balls.current = [];
+    if (!block) return;
     const size = block.head.high_m.map((high: number, axis: number) => high - block.head.low_m[axis]) as Point;
     const radius = 0.006 * Math.hypot(...size);
     strokes.forEach((stroke, index) => {
@@ -165,7 +168,7 @@ function listen(view: View, props: () => PaintViewProps, mesh: () => PaintedMesh
       if (kind === "leave") onHover(null);
       if (kind !== "up") return;
       if (brushed.length > 0) {
-        props().onBrush(brushed);
+        if (drawing && mesh()) props().onBrush(brushed);
         brushed = [];
         down = null;
         return clear();

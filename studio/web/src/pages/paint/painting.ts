@@ -1,4 +1,6 @@
 // What the page's section of the document holds, and how the colours of the painted mesh are made.
+import { isSameUnit, textOfLength, unitInForce, unitOfText } from "../../ui/meshUnits";
+
 export type Point = [number, number, number];
 
 export interface Stroke {
@@ -22,6 +24,24 @@ export interface PaintSection {
   current: number;
   /** The scene that was last written with the present content; "": none, or the content has changed since. */
   written: string;
+}
+
+/** The unit that the page has chosen, as text; "": none. */
+export const unitText = (paint: PaintSection): string => (paint.unit_m === undefined ? "" : textOfLength(paint.unit_m));
+
+/** Another mesh or scene to paint on: nothing of the one before is kept, also its unit. */
+export function withObject(paint: PaintSection, object: string): PaintSection {
+  const { unit_m: _unit, ...kept } = paint;
+  return { ...kept, object, strokes: [], swaps: {}, current: -1, written: "" };
+}
+
+/** The mesh in another unit, as text, "": none of the page. Strokes are in metres: those of another scale are removed. */
+export function withUnitText(paint: PaintSection, text: string, projectUnit: string): PaintSection {
+  const { unit_m: _unit, ...kept } = paint;
+  const unit_m = text === "" ? null : unitOfText(text);
+  const next: PaintSection = unit_m === null ? kept : { ...kept, unit_m };
+  const inForce = (one: PaintSection) => unitInForce(one.object, unitText(one), projectUnit);
+  return isSameUnit(inForce(paint), inForce(next)) ? next : { ...next, strokes: [], current: -1 };
 }
 
 /** What the server states of a stroke that it has painted, or why it could not. */
