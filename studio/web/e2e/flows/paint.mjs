@@ -59,6 +59,20 @@ export default async function paint({ page, step, folder, until, equal, near, ok
     ok(numberIn(await figure(result, "Triangles")) > 20, "the stroke covers triangles");
   });
 
+  await step("another unit of the project removes strokes of the former scale; undo restores the unit, then the stroke", async () => {
+    await open(page, "Home");
+    await page.getByTestId("project-unit").selectOption("cm");
+    await open(page, "Paint");
+    const size = page.getByTestId("paint-size");
+    await until(async () => Math.abs(numberIn(await size.textContent()) - 980) < 80, "the pebble ten times as large");
+    await page.getByTestId("paint-result-1").waitFor({ state: "detached" });
+    await page.getByTestId("undo").click();
+    await until(async () => Math.abs(numberIn(await size.textContent()) - 98) < 8, "the pebble as before");
+    equal(await page.getByTestId("paint-unit").locator("option:checked").textContent(), "mm, project's", "the unit");
+    await page.getByTestId("undo").click();
+    await page.getByTestId("paint-result-1").waitFor();
+  });
+
   await step("the texture's coordinates, the warp and the textures are shown", async () => {
     for (const [value, words] of [["coordinates", "checkerboard"], ["warp", "compressed"], ["textures", ""]]) {
       await page.getByTestId("paint-show").selectOption(value);
