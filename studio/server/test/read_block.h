@@ -27,7 +27,8 @@ class ReadBlock {
       std::size_t count = 1;
       for (const Json& size : each.at("shape")) count *= size.get<std::size_t>();
       std::vector<T> out(count);
-      std::memcpy(out.data(), frame_.data() + each.at("offset").get<std::size_t>(), count * sizeof(T));
+      const std::size_t offset = each.at("offset").get<std::size_t>();
+      if (count > 0) std::memcpy(out.data(), frame_.data() + offset, count * sizeof(T));
       return out;
     }
     return {};
