@@ -7,7 +7,7 @@ import numpy.typing as npt
 _Floats = npt.NDArray[np.float64]
 _Times = npt.NDArray[np.int64]
 _Indices = npt.NDArray[np.uint32]
-_Path = Union[str, "PathLike[str]"]
+_Path = Union[str, bytes, "PathLike[str]", "PathLike[bytes]"]
 _Settings = Mapping[str, Any]
 
 __version__: str

@@ -93,6 +93,7 @@ def test_a_result_is_its_files(result, tmp_path):
     np.testing.assert_allclose(path["px_m"], result.position_m[:, 0], atol=1e-12)
     np.testing.assert_allclose(path["qw"], result.orientation_xyzw[:, 3], atol=1e-12)
     texture = asperity.read_texture(folder / "texture.json")
+    assert repr(asperity.read_texture(os.fsencode(folder / "texture.json"))) == repr(texture)  # a name of bytes
     x = np.linspace(0.0, 0.02, 500)
     np.testing.assert_array_equal(texture.heights(x), result.texture.heights(x))
     assert result.summary["trustworthy"] is True

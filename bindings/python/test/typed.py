@@ -11,6 +11,7 @@ import asperity
 
 def measure(folder: Path) -> Optional[float]:
     recording: asperity.Recording = asperity.read_recording(folder)
+    print(len(asperity.read_recording(bytes(folder))))
     result = asperity.process(recording, settings={"profile.remove_noise": False})
     heights: npt.NDArray[np.float64] = result.height_m
     times: npt.NDArray[np.int64] = recording.t_ns
