@@ -15,6 +15,7 @@
 #include "asperity/base/random.h"
 #include "asperity/base/version.h"
 #include "asperity/geometry/mesh_surface.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/json/json.h"
 #include "asperity/pipeline/process_recording.h"
@@ -101,7 +102,9 @@ class BenchCommand : public Command {
  private:
   TriangleMesh mesh() const {
     if (!mesh_.empty()) {
-      return to_metres(read_mesh(mesh_), mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_));
+      const MeshFile file = read_mesh(mesh_);
+      if (mesh_unit_.empty()) refuse_unlikely_metres(file, mesh_);
+      return to_metres(file, mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_));
     }
     PebbleConfig config;
     config.facet_m = 0.62e-3;
@@ -113,7 +116,11 @@ class BenchCommand : public Command {
     std::filesystem::path path(mesh_);
     if (std::filesystem::is_directory(path)) path /= "scene.json";
     Scene out = read_scene(path);
-    if (!mesh_unit_.empty()) out.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    if (!mesh_unit_.empty()) {
+      out.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    } else {
+      refuse_unlikely_metres(out.objects.front().mesh, path);
+    }
     return out;
   }
 

@@ -13,6 +13,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/geometry/mesh_unit.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/scene/export_scene.h"
@@ -136,6 +137,9 @@ class ExportCommand : public Command {
       scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     }
     check_exportable(source_, scene, format_);
+    if (mesh_unit_.empty() && !fs::is_directory(source_)) {
+      refuse_unlikely_metres(scene.objects.front().mesh, source_);
+    }
     observer.update("exporting", 0.0);
     ExportResult out = export_scene(scene, format, config_, observer);
     add_material_images(source_, scene, format, out);

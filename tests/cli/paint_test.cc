@@ -127,6 +127,13 @@ TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
   EXPECT_EQ(paint(path("none.obj"), "5,7,0;35,7,0").code, 1);
   EXPECT_EQ(run({"export", path("plane.obj"), "--to", "doc"}).code, 2);
   EXPECT_EQ(run({"export", path("plane.obj"), "--to", "png"}).code, 1);  // it has no textures
+  // In metres it would be as large as a house.
+  const Outcome metres = run({"export", path("plane.obj"), "--to", "stl", "-o", path("metres")});
+  EXPECT_EQ(metres.code, 1);
+  EXPECT_THAT(metres.err,
+              testing::AllOf(testing::HasSubstr("plane.obj: the mesh is"), testing::HasSubstr("--mesh-unit")));
+  EXPECT_FALSE(std::filesystem::exists(path("metres")));
+  EXPECT_EQ(run({"export", path("plane.obj"), "--mesh-unit", "mm", "--to", "stl", "-o", path("metres")}).code, 0);
   std::filesystem::create_directory(path("strange"));
   write_text(path("strange/mine.txt"), "kept\n");
   EXPECT_EQ(run({"export", path("wave.texture.json"), "--to", "wav", "-o", path("strange")}).code, 1);
