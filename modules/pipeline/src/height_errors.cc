@@ -169,9 +169,10 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.along_tracker_psd_m2ps = along_square.dot(tracker_psd) / samples;
   const LengthErrors length = measure_length_error(motion, base, recording.calibration.tip_in_marker_m,
                                                    recording.calibration.tip_radius_m, base.indentation_sigma_m);
-  out.along_scale_sigma = length.scale_sigma;
+  const double bends = base.length_m > 0.0 ? length.bends_m / base.length_m : 0.0;
+  out.along_scale_sigma = std::hypot(length.scale_sigma, bends);
   // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it.
-  if (base.shape != PathShape::kMesh) out.stretch_sigma = length.scale_sigma;
+  if (base.shape != PathShape::kMesh) out.stretch_sigma = out.along_scale_sigma;
   out.length_ends_m = length.ends_m;
   out.along_sigma_m = length.place_m;
   // What the smoother has learnt of the sensor's own noise, at one reading a period.

@@ -1,11 +1,14 @@
 #include "asperity/profile/measure_arc_length.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/signal/statistics.h"
@@ -27,11 +30,14 @@ constexpr double kCreep_mps = 0.5e-3;  // about as fast as tips slide down the e
 // Standard deviations: creep below the first is noise (at the ends of a recording it is up to twice the usual), from
 // the second on it is none; in between in proportion, so that the length has no step.
 constexpr double kPerhapsCrept = 2.0, kCrept = 4.0;
-constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
-constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
-constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
+constexpr double kClearMotion = 4.0;      // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;         // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;      // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;          // cosine: two directions within 60° are no reversal
+constexpr double kUsualBend_m = 0.7e-3;   // where nothing is known of the noise
+constexpr double kCloser = 2.0;           // times the bends' cut-off: of the direction in bends
+constexpr double kMostTurned_rad = 0.07;  // by noise, which lengthens by a quarter of a per cent: no closer
+constexpr double kBent = 0.996;           // cosine of 5°: a path is bent where its two directions are further apart
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -77,6 +83,17 @@ struct Directions {
   std::vector<std::size_t> turns;        // cells from which a reversed direction holds
 };
 
+// How far the slow path is from the quick one. Where the tip stops and starts the low-pass moves the path along itself:
+// that is no bend, unless the path turns round.
+double cut_m(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, bool beside_stop) {
+  Eigen::Vector2d out_m = slow.p_m[cell] - quick.p_m[cell];
+  const Eigen::Vector2d gentle = velocity_mps(slow, cell);
+  if (!beside_stop || !(gentle.norm() > 0.0)) return out_m.norm();
+  const Eigen::Vector2d along = gentle.normalized();
+  if (along.dot(velocity_mps(quick, cell).normalized()) > kSameWay) out_m -= along.dot(out_m) * along;
+  return out_m.norm();
+}
+
 // The direction of travel in a moving cell: that of the slow path, which noise hardly turns; where that
 // cuts a bend by more than noise could, that of the quick one.
 Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, double bend_m,
@@ -84,14 +101,30 @@ Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std
   Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
-  // Where the tip stops and starts the low-pass moves the path along itself: that is no bend, unless the path turns
-  // round.
   const Eigen::Vector2d along = gentle.normalized();
-  Eigen::Vector2d cut_m = slow.p_m[cell] - quick.p_m[cell];
-  if (beside_stop && along.dot(tight) > kSameWay) cut_m -= along.dot(cut_m) * along;
-  const double share = std::clamp(cut_m.norm() / bend_m - 1.0, 0.0, 1.0);
+  const double share = std::clamp(cut_m(slow, quick, cell, beside_stop) / bend_m - 1.0, 0.0, 1.0);
   const Eigen::Vector2d mixed = (1.0 - share) * along + share * tight;
   return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
+}
+
+enum class Part : char { kStraight, kBend, kBesideBend };
+
+// A bend is where the slow path cuts one by more than noise could, and what is bent as far from there as the slow
+// low-pass reaches. What is not bent within this reach is neither bend nor straight.
+std::vector<Part> find_bends(const EvenPath<2>& slow, const EvenPath<2>& quick, const std::vector<char>& moving,
+                             const std::vector<char>& beside_stop, double bend_m, std::size_t reach) {
+  const std::size_t n = moving.size();
+  std::vector<Part> out(n, Part::kStraight);
+  std::size_t marked = 0;  // up to which
+  for (std::size_t i = 0; i < n; ++i) {
+    if (moving[i] == 0 || !(cut_m(slow, quick, i, beside_stop[i] != 0) > bend_m)) continue;
+    for (std::size_t j = std::max(marked, i - std::min(i, reach)); j < std::min(n, i + reach + 1); ++j) {
+      const Eigen::Vector2d a = velocity_mps(slow, j), b = velocity_mps(quick, j);
+      out[j] = moving[j] != 0 && a.dot(b) < kBent * a.norm() * b.norm() ? Part::kBend : Part::kBesideBend;
+    }
+    marked = std::min(n, i + reach + 1);
+  }
+  return out;
 }
 
 // Marks the cells that are within a period of the slow low-pass of a stop of kLastingMotion_s or more.
@@ -149,6 +182,45 @@ Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, con
     std::fill(out.tangent.begin() + static_cast<std::ptrdiff_t>(last), out.tangent.end(), out.tangent[last]);
   return out;
 }
+
+// Bends by a direction that follows them closer. Noise and tremor turn that direction too: a velocity w across the path
+// lengthens it by w²/(2 v) a second. What that is where the path is straight gives w², and with it what is left out.
+class Closer {
+ public:
+  // `parts` one a cell; empty: no bend.
+  Closer(const EvenPath<2>& sharp, const Directions& directions, const std::vector<char>& moving,
+         std::vector<Part> parts)
+      : parts_(std::move(parts)) {
+    if (std::find(parts_.begin(), parts_.end(), Part::kBend) == parts_.end()) return;
+    turned_.assign(sharp.size(), Eigen::Vector2d::Zero());
+    double straight_added_m = 0.0, straight_slowness = 0.0, bend_added_m = 0.0, bend_slowness = 0.0;  // Σ 1/v
+    for (std::size_t i = 0; i < sharp.size(); ++i) {
+      const Eigen::Vector2d v_mps = velocity_mps(sharp, i);
+      if (moving[i] == 0 || parts_[i] == Part::kBesideBend || !(v_mps.norm() > 0.0)) continue;
+      turned_[i] = v_mps.normalized() - directions.tangent[i];
+      const Eigen::Vector2d step_m = v_mps * sharp.step_s;
+      const bool bent = parts_[i] == Part::kBend;
+      (bent ? bend_added_m : straight_added_m) += turned_[i].dot(step_m);
+      (bent ? bend_slowness : straight_slowness) += 1.0 / v_mps.norm();
+    }
+    added_m_ = bend_added_m;
+    // Without a straight part no one knows what noise adds.
+    if (!(bend_added_m > 0.0) || !(straight_slowness > 0.0)) return;
+    const double by_noise_m = straight_added_m * bend_slowness / straight_slowness;
+    share_ = std::clamp(1.0 - by_noise_m / bend_added_m, 0.0, 1.0);
+  }
+
+  double added_m() const { return added_m_; }  // by all bends, noise included
+  // What of a step in a cell the closer direction adds, less what it adds by noise; 0 outside bends.
+  double added_m(std::size_t cell, const Eigen::Vector2d& step_m) const {
+    return share_ > 0.0 && parts_[cell] == Part::kBend ? share_ * turned_[cell].dot(step_m) : 0.0;
+  }
+
+ private:
+  std::vector<Part> parts_;
+  std::vector<Eigen::Vector2d> turned_;
+  double share_ = 0.0, added_m_ = 0.0;
+};
 
 // The first of `moving`'s cells from which it moves for `cells` on end; its size if there is none.
 template <class Iterator>
@@ -226,13 +298,14 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   };
   // Below a cut-off f, noise of σ that reaches beyond it turns the direction by 2πfσ/√3, and lengthens by half the
   // square.
-  const double quiet_cycles_per_mm =
-      config.noise_m > 0.0 ? std::sqrt(6.0 * kLengthened) / (2.0 * std::numbers::pi * 1e3 * config.noise_m)
-                           : config.direction_cutoff_cycles_per_mm;
+  constexpr double kNoiseTurns = 2.0 * std::numbers::pi / std::numbers::sqrt3;
+  const double quiet_cycles_per_mm = config.noise_m > 0.0
+                                         ? std::sqrt(2.0 * kLengthened) / (kNoiseTurns * 1e3 * config.noise_m)
+                                         : config.direction_cutoff_cycles_per_mm;
   const double slow_Hz = cutoff_Hz(std::min(config.direction_cutoff_cycles_per_mm, quiet_cycles_per_mm));
   const auto slow = low_pass(path, slow_Hz);
-  const auto quick =
-      low_pass(path, cutoff_Hz(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm)));
+  const double quick_Hz = cutoff_Hz(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm));
+  const auto quick = low_pass(path, quick_Hz);
   const std::vector<double> speed = speeds(quick);
   const double wander_mps = wandering_mps(slow, quick, speed, usual_mps, first_cell, last_cell);
   const double rest_mps = std::max(std::max(config.rest_speed_mps, config.rest_fraction * usual_mps),
@@ -245,11 +318,21 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const std::vector<char> beside =
       bend_m > 2.0 * config.noise_m ? beside_stops(moving, slow_Hz, path.step_s) : std::vector<char>(moving.size(), 0);
   const Directions directions = find_directions(path, slow, quick, moving, beside, bend_m);
+  // As close as noise of σ turns the direction by no more than kMostTurned_rad. Where that is no closer than the quick
+  // one, the bends are not followed, and what they hide is an error alone.
+  const double quiet_Hz = config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : 0.0;
+  const bool follows = quiet_Hz > quick_Hz;
+  const auto reach = static_cast<std::size_t>(0.5 / (slow_Hz * path.step_s));
+  const Closer closer(
+      low_pass(path, follows ? std::min(kCloser * quick_Hz, quiet_Hz) : kCloser * quick_Hz), directions, moving,
+      bend_m > 2.0 * config.noise_m ? find_bends(slow, quick, moving, beside, bend_m, reach) : std::vector<Part>());
+  out.bends_m = closer.added_m();
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {
-    const Eigen::Vector2d& tangent = directions.tangent[index_at(path, 0.5 * (t_s[i - 1] + t_s[i]))];
-    out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
+    const std::size_t cell = index_at(path, 0.5 * (t_s[i - 1] + t_s[i]));
+    const Eigen::Vector2d step_m = u_m[i] - u_m[i - 1];
+    out.s_m[i] = out.s_m[i - 1] + directions.tangent[cell].dot(step_m) + (follows ? closer.added_m(cell, step_m) : 0.0);
   }
   // The path lies between the places of the rests before and after it: the lowest of many noisy s would be too low, and
   // the length too long.

@@ -107,6 +107,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   const double tip_m = turned_marker.cwiseProduct(motion.sigma_tip_in_marker_m).norm();
   const double length_m = base.path.s_m[ends.last] - base.path.s_m[ends.first];
   out.ends_m = std::sqrt(ends_m2);
+  out.bends_m = 0.5 * std::abs(base.bends_m);
   out.place_m = std::sqrt(mean(along_m2));
   out.scale_sigma = std::hypot(std::hypot(tip_m, ball_m), level_m * turned_normal) / length_m;
   return out;

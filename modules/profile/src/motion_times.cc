@@ -62,6 +62,7 @@ void follow_path(const TipMotion& motion, const std::vector<double>& t_s, const 
   out.path.s_m = std::move(arc.s_m);
   out.speed_mps = std::move(arc.speed_mps);
   out.turning_points = std::move(arc.turning_points);
+  out.bends_m = arc.bends_m;
   out.length_m = *std::max_element(out.path.s_m.begin(), out.path.s_m.end());
 }
 

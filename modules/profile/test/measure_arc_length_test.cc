@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "asperity/base/random.h"
 #include "synthetic_path.h"
 
 namespace asperity {
@@ -162,6 +163,47 @@ TEST(ArcLength, ATipThatCreepsDuringItsRestsIsOnItsWay) {
     sum_m += measure_arc_length(t_s, u_m, {}, config).s_m.back() - true_m;
   }
   EXPECT_LT(std::abs(sum_m) / kSeeds, 3.0 * std::numbers::sqrt2 * kSigma_m / std::sqrt(static_cast<double>(kSeeds)));
+}
+
+// Two lines of 40 mm joined by a half circle of 1.25 mm, as a raster turns: the point after a way along it.
+constexpr double kLine_m = 0.04, kTurnRadius_m = 1.25e-3, kRaster_m = 2.0 * kLine_m + std::numbers::pi * kTurnRadius_m;
+
+Eigen::Vector2d raster_at(double s_m) {
+  if (s_m < kLine_m) return {s_m, 0.0};
+  const double past_m = s_m - kRaster_m + kLine_m;
+  if (past_m > 0.0) return {kLine_m - past_m, 2.0 * kTurnRadius_m};
+  const double angle = (s_m - kLine_m) / kTurnRadius_m;
+  return {kLine_m + kTurnRadius_m * std::sin(angle), kTurnRadius_m * (1.0 - std::cos(angle))};
+}
+
+ArcLength measure_raster(double noise_m, double tremor_m) {
+  constexpr double kSpeed_mps = 0.025, kRest_s = 0.6;
+  Random random(7);
+  std::vector<double> t_s;
+  std::vector<Eigen::Vector2d> u_m;
+  for (int i = 0; i < static_cast<int>((kRaster_m / kSpeed_mps + 2.0 * kRest_s) * kRate_hz); ++i) {
+    t_s.push_back(i / kRate_hz);
+    const double way_m = std::clamp(kSpeed_mps * (t_s.back() - kRest_s), 0.0, kRaster_m);
+    const double x_m = noise_m * random.normal(), y_m = noise_m * random.normal();
+    const double tremor = tremor_m * std::sin(2.0 * std::numbers::pi * 9.0 * t_s.back());
+    u_m.emplace_back(raster_at(way_m) + Eigen::Vector2d(x_m, y_m + tremor));
+  }
+  ArcLengthConfig config;
+  config.noise_m = 0.05e-3;
+  config.bend_m = 5.0 * config.noise_m;
+  return measure_arc_length(t_s, u_m, {}, config);
+}
+
+// The quick low-pass cuts such a turn, and made it 80 to 100 µm shorter; what is added counts as an error by half.
+TEST(ArcLength, TheTurnsOfARasterAreFollowed) {
+  for (const double noise_m : {0.0, 20e-6}) {
+    for (const double tremor_m : {0.0, 30e-6}) {
+      const ArcLength arc = measure_raster(noise_m, tremor_m);
+      EXPECT_NEAR(arc.s_m.back(), kRaster_m, 35e-6) << noise_m << ' ' << tremor_m;
+      EXPECT_NEAR(arc.s_m.back(), kRaster_m, arc.bends_m) << noise_m << ' ' << tremor_m;
+      EXPECT_LT(arc.bends_m, 0.2e-3) << noise_m << ' ' << tremor_m;
+    }
+  }
 }
 
 // Corners at which the tip only slows down are bends, of which little is cut.

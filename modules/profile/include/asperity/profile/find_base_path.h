@@ -72,6 +72,7 @@ struct BasePathResult {
   std::vector<char> contact;       // one a sample
   std::vector<double> speed_mps;   // along the path, one a sample
   std::vector<std::size_t> turning_points;
+  double bends_m = 0.0;  // what a direction that follows bends closer adds to them (measure_arc_length.h)
   std::vector<UndeterminedRotation> undetermined;
 
   Eigen::Vector3d centre_world_m = Eigen::Vector3d::Zero();  // a point of the plane, or the circle's centre

@@ -39,6 +39,7 @@ struct ArcLength {
   std::vector<double> s_m;                  // one a sample, 0 up to the first usable one, constant after the last
   std::vector<double> speed_mps;            // of the low-passed path, one a sample
   std::vector<std::size_t> turning_points;  // samples at which a stroke reverses (by more than 90°)
+  double bends_m = 0.0;                     // what a direction that follows bends closer adds to them, by noise too
 };
 
 // Arc length of a path given in coordinates of its developed surface, u_m, one a sample at the rising
@@ -49,7 +50,8 @@ struct ArcLength {
 // along the direction of travel, ds = t·Δu with t the unit velocity of the low-passed path. Errors along
 // t then cancel from step to step, whatever the rate, and only those of t remain, which shorten the path
 // by half the square of the angle. The low-pass works in time; its cut-off is that of the config times the
-// speed's 80th percentile: the lower one, and where that cuts a bend by more than bend_m, the higher. Real
+// speed's 80th percentile: the lower one, and where that cuts a bend by more than bend_m, the higher. A bend is what is
+// so cut and what bends beside it; there the direction is that of twice the higher cut-off. Real
 // tangential motion at any frequency (stick–slip) is kept. At rest t is held, so s does not creep; it may step back by
 // what the tip steps back. In the rests before and after the path it has one value, their median, so that the path does
 // not grow by the range of its noise there; a tip that creeps during such a rest, by more than two to four `noise_m`,

@@ -9,6 +9,7 @@ struct LengthErrors {
   double place_m = 0.0;      // standard deviation of a place along the path, RMS over it
   double ends_m = 0.0;       // of the places at the path's ends and turning points
   double scale_sigma = 0.0;  // relative: what lasts along the path
+  double bends_m = 0.0;      // of the length of all bends
 };
 
 // Standard errors of a path's arc length, by what a position error e does to L = ∫ t·dp: [t·e] at the ends, 2 t·e where
@@ -19,7 +20,8 @@ struct LengthErrors {
 // the length by (Σ ΔRᵀt)·δ; the normals turn along the path by Θ (an arc's length over its radius), and what is not
 // known of the level at which the tip goes changes it by Θ times that: `indentation_sigma_m`, 0.1 mm of the relief's
 // own level, and the normal error of the path; and the ball's radius r over √3 times the angle by which the probe turns
-// less than the normals, for it rolls. Steps of 1 mm. Zeros without a covariance.
+// less than the normals, for it rolls. Steps of 1 mm. `bends_m`: half of what a direction that follows the bends closer
+// adds to the length, for the next closer one would add or take again, and noise is in it. Zeros without a covariance.
 LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult& base,
                                   const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m,
                                   double indentation_sigma_m);
