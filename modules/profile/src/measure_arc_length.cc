@@ -7,12 +7,12 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/signal/zero_phase.h"
+#include "closer_direction.h"
 #include "even_path.h"
 
 namespace asperity {
@@ -37,7 +37,6 @@ constexpr double kSameWay = 0.5;          // cosine: two directions within 60° 
 constexpr double kUsualBend_m = 0.7e-3;   // where nothing is known of the noise
 constexpr double kCloser = 2.0;           // times the bends' cut-off: of the direction in bends
 constexpr double kMostTurned_rad = 0.07;  // by noise, which lengthens by a quarter of a per cent: no closer
-constexpr double kBent = 0.996;           // cosine of 5°: a path is bent where its two directions are further apart
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -107,26 +106,6 @@ Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std
   return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
 }
 
-enum class Part : char { kStraight, kBend, kBesideBend };
-
-// A bend is where the slow path cuts one by more than noise could, and what is bent as far from there as the slow
-// low-pass reaches. What is not bent within this reach is neither bend nor straight.
-std::vector<Part> find_bends(const EvenPath<2>& slow, const EvenPath<2>& quick, const std::vector<char>& moving,
-                             const std::vector<char>& beside_stop, double bend_m, std::size_t reach) {
-  const std::size_t n = moving.size();
-  std::vector<Part> out(n, Part::kStraight);
-  std::size_t marked = 0;  // up to which
-  for (std::size_t i = 0; i < n; ++i) {
-    if (moving[i] == 0 || !(cut_m(slow, quick, i, beside_stop[i] != 0) > bend_m)) continue;
-    for (std::size_t j = std::max(marked, i - std::min(i, reach)); j < std::min(n, i + reach + 1); ++j) {
-      const Eigen::Vector2d a = velocity_mps(slow, j), b = velocity_mps(quick, j);
-      out[j] = moving[j] != 0 && a.dot(b) < kBent * a.norm() * b.norm() ? Part::kBend : Part::kBesideBend;
-    }
-    marked = std::min(n, i + reach + 1);
-  }
-  return out;
-}
-
 // Marks the cells that are within a period of the slow low-pass of a stop of kLastingMotion_s or more.
 std::vector<char> beside_stops(const std::vector<char>& moving, double slow_Hz, double step_s) {
   const auto reach = static_cast<std::size_t>(1.0 / (slow_Hz * step_s));
@@ -182,45 +161,6 @@ Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, con
     std::fill(out.tangent.begin() + static_cast<std::ptrdiff_t>(last), out.tangent.end(), out.tangent[last]);
   return out;
 }
-
-// Bends by a direction that follows them closer. Noise and tremor turn that direction too: a velocity w across the path
-// lengthens it by w²/(2 v) a second. What that is where the path is straight gives w², and with it what is left out.
-class Closer {
- public:
-  // `parts` one a cell; empty: no bend.
-  Closer(const EvenPath<2>& sharp, const Directions& directions, const std::vector<char>& moving,
-         std::vector<Part> parts)
-      : parts_(std::move(parts)) {
-    if (std::find(parts_.begin(), parts_.end(), Part::kBend) == parts_.end()) return;
-    turned_.assign(sharp.size(), Eigen::Vector2d::Zero());
-    double straight_added_m = 0.0, straight_slowness = 0.0, bend_added_m = 0.0, bend_slowness = 0.0;  // Σ 1/v
-    for (std::size_t i = 0; i < sharp.size(); ++i) {
-      const Eigen::Vector2d v_mps = velocity_mps(sharp, i);
-      if (moving[i] == 0 || parts_[i] == Part::kBesideBend || !(v_mps.norm() > 0.0)) continue;
-      turned_[i] = v_mps.normalized() - directions.tangent[i];
-      const Eigen::Vector2d step_m = v_mps * sharp.step_s;
-      const bool bent = parts_[i] == Part::kBend;
-      (bent ? bend_added_m : straight_added_m) += turned_[i].dot(step_m);
-      (bent ? bend_slowness : straight_slowness) += 1.0 / v_mps.norm();
-    }
-    added_m_ = bend_added_m;
-    // Without a straight part no one knows what noise adds.
-    if (!(bend_added_m > 0.0) || !(straight_slowness > 0.0)) return;
-    const double by_noise_m = straight_added_m * bend_slowness / straight_slowness;
-    share_ = std::clamp(1.0 - by_noise_m / bend_added_m, 0.0, 1.0);
-  }
-
-  double added_m() const { return added_m_; }  // by all bends, noise included
-  // What of a step in a cell the closer direction adds, less what it adds by noise; 0 outside bends.
-  double added_m(std::size_t cell, const Eigen::Vector2d& step_m) const {
-    return share_ > 0.0 && parts_[cell] == Part::kBend ? share_ * turned_[cell].dot(step_m) : 0.0;
-  }
-
- private:
-  std::vector<Part> parts_;
-  std::vector<Eigen::Vector2d> turned_;
-  double share_ = 0.0, added_m_ = 0.0;
-};
 
 // The first of `moving`'s cells from which it moves for `cells` on end; its size if there is none.
 template <class Iterator>
@@ -323,9 +263,11 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const double quiet_Hz = config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : 0.0;
   const bool follows = quiet_Hz > quick_Hz;
   const auto reach = static_cast<std::size_t>(0.5 / (slow_Hz * path.step_s));
-  const Closer closer(
-      low_pass(path, follows ? std::min(kCloser * quick_Hz, quiet_Hz) : kCloser * quick_Hz), directions, moving,
-      bend_m > 2.0 * config.noise_m ? find_bends(slow, quick, moving, beside, bend_m, reach) : std::vector<Part>());
+  std::vector<char> cut(path.size(), 0);
+  for (std::size_t i = 0; i < path.size() && bend_m > 2.0 * config.noise_m; ++i)
+    cut[i] = moving[i] != 0 && cut_m(slow, quick, i, beside[i] != 0) > bend_m ? 1 : 0;
+  const CloserDirection closer(low_pass(path, follows ? std::min(kCloser * quick_Hz, quiet_Hz) : kCloser * quick_Hz),
+                               directions.tangent, moving, find_bends(slow, quick, moving, cut, reach));
   out.bends_m = closer.added_m();
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];

@@ -9,6 +9,7 @@
 
 #include "asperity/base/nan.h"
 #include "asperity/signal/statistics.h"
+#include "noise_blocks.h"
 
 namespace asperity {
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "even_path.h"
+
+namespace asperity {
+
+enum class PathPart : char { kStraight, kBend, kBesideBend };
+
+// The parts of a path, one a cell. A bend is where `cut` marks that the slow path cuts one by more than noise could,
+// and what is bent, by 5° between the directions of the two paths, within `reach` cells of it. What is not bent there
+// is neither bend nor straight.
+std::vector<PathPart> find_bends(const EvenPath<2>& slow, const EvenPath<2>& quick, const std::vector<char>& moving,
+                                 const std::vector<char>& cut, std::size_t reach);
+
+// Bends by the direction of a path that follows them closer than `tangent` does (docs/profile-length.md). Noise and
+// tremor turn that direction too: a velocity w across the path lengthens it by w²/(2 v) a second. What that is where
+// the path is straight gives w², and with it what is left out.
+class CloserDirection {
+ public:
+  // All one a cell.
+  CloserDirection(const EvenPath<2>& sharp, const std::vector<Eigen::Vector2d>& tangent,
+                  const std::vector<char>& moving, std::vector<PathPart> parts);
+
+  double added_m() const { return added_m_; }  // to the length by all bends, noise included
+  // What of a step in a cell the closer direction adds, less what it adds by noise; 0 outside bends.
+  double added_m(std::size_t cell, const Eigen::Vector2d& step_m) const {
+    return share_ > 0.0 && parts_[cell] == PathPart::kBend ? share_ * turned_[cell].dot(step_m) : 0.0;
+  }
+
+ private:
+  std::vector<PathPart> parts_;
+  std::vector<Eigen::Vector2d> turned_;
+  double share_ = 0.0, added_m_ = 0.0;
+};
+
+}  // namespace asperity
