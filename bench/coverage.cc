@@ -3,7 +3,7 @@
 // Prints tables in Markdown: how many 95 % intervals hold the truth, what is trusted, error over stated sigma.
 //
 //   coverage [--scans 400] [--seed 1] [--simulator ours|second] [--families sine,…] [--probes open,what]
-//            [--jobs 2] [--calibration stated|exact] [--paths drawn|curved] [--csv FILE]
+//            [--jobs 2] [--calibration stated|exact] [--paths drawn|curved|raster] [--csv FILE]
 //
 // docs/coverage.md says what is drawn and how the truth's figures are had.
 
@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -35,6 +36,13 @@ struct Options {
   std::string scan, folder;  // one scan by its own number, to look at: `process` it
 };
 
+bench::CasePaths paths_of(std::string_view value) {
+  if (value == "drawn") return bench::CasePaths::kDrawn;
+  if (value == "curved") return bench::CasePaths::kCurved;
+  if (value == "raster") return bench::CasePaths::kRaster;
+  throw asperity::Error("'" + std::string(value) + "' is not drawn, curved or raster");
+}
+
 Options parse_options(int argc, char** argv) {
   Options out;
   bench::read_options(
@@ -46,7 +54,7 @@ Options parse_options(int argc, char** argv) {
        {"--families", [&](auto value) { out.choice.families = bench::split_list(value); }},
        {"--probes", [&](auto value) { out.choice.probes = bench::split_list(value); }},
        {"--calibration", [&](auto value) { out.choice.exact_calibration = bench::is_first(value, "exact", "stated"); }},
-       {"--paths", [&](auto value) { out.choice.curved = bench::is_first(value, "curved", "drawn"); }},
+       {"--paths", [&](auto value) { out.choice.paths = paths_of(value); }},
        {"--scan", [&](auto value) { out.scan = value; }},
        {"--folder", [&](auto value) { out.folder = value; }},
        {"--csv", [&](auto value) { out.csv = value; }}});

@@ -81,6 +81,18 @@ void draw_hand(SimulationConfig& config, Random& random) {
   if (random.chance(0.2)) hand.path = asperity::HandPathShape::kCurved;
 }
 
+// Strokes side by side, some 3 to 10 s in all. From numbers of its own: the scans that are no rasters stay as they were.
+void draw_raster(SimulationConfig& config, std::uint64_t seed, CasePaths paths) {
+  constexpr double kShare = 0.15;
+  Random random(seed, 0x726173);
+  if (!random.chance(kShare) && paths != CasePaths::kRaster) return;
+  asperity::HandConfig& hand = config.hand;
+  hand.path = asperity::HandPathShape::kBackAndForth;
+  hand.strokes = 2 + static_cast<int>(7.0 * random.uniform());
+  hand.row_spacing_m = log_uniform(random, 0.5e-3, 5e-3);
+  hand.length_m = std::clamp(hand.speed_mps * random.uniform(3.0, 8.0) / hand.strokes, 0.012, 0.1);
+}
+
 void draw_faults(SimulationConfig& config, Random& random) {
   const double tracker_noise = log_uniform(random, 0.6, 1.8);
   for (double& sigma : config.tracker.noise_m) sigma *= tracker_noise;
@@ -170,7 +182,8 @@ ScanCase simulate_own_case(std::uint64_t seed, const CaseChoice& choice) {
   config.seed = static_cast<std::int64_t>(1 + seed);
   draw_surface(config, out.family, random, out);
   draw_hand(config, random);
-  if (choice.curved) config.hand.path = asperity::HandPathShape::kCurved;
+  if (choice.paths == CasePaths::kCurved) config.hand.path = asperity::HandPathShape::kCurved;
+  if (choice.paths != CasePaths::kCurved) draw_raster(config, seed, choice.paths);
   draw_faults(config, random);
   draw_slow_errors(config, random);
   if (choice.exact_calibration) config.calibration.imperfection = 0.0;
@@ -183,6 +196,7 @@ ScanCase simulate_own_case(std::uint64_t seed, const CaseChoice& choice) {
   note(config.tracker.mount_Hz > 0.0, "shaking marker");
   note(config.tracker.slow_share > 0.3, "tracker drift");
   note(config.hand.path == asperity::HandPathShape::kCurved, "curved");
+  note(config.hand.path == asperity::HandPathShape::kBackAndForth, "raster");
   note(config.hand.force == asperity::HandForce::kRamp, "rising force");
   note(material != "stiff", "soft");
   if (out.family == "air") {

@@ -22,11 +22,13 @@ struct ScanCase {
   double stiffness_N_per_mm = std::numeric_limits<double>::quiet_NaN();  // of the contact, at the mean force
 };
 
+enum class CasePaths { kDrawn, kCurved, kRaster };
+
 // What a coverage run draws from. `families` and `probes`: empty for all.
 struct CaseChoice {
   std::vector<std::string> families, probes;
   bool exact_calibration = false;
-  bool curved = false;  // every path is an arc; the second simulator has straight ones alone
+  CasePaths paths = CasePaths::kDrawn;  // the second simulator has straight ones alone
 };
 
 // Random scans of the product's own virtual bench. The same seed and choice give the same scan. Throws asperity::Error

@@ -10,6 +10,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "asperity/pipeline/true_profile.h"
+#include "asperity/signal/statistics.h"
+#include "process_stages.h"
 
 namespace asperity {
 
@@ -63,6 +65,23 @@ double travel_speed_mps(const Truth& truth) {
     time_s += step_s;
   }
   return time_s > 0.0 ? way_m / time_s : 0.0;
+}
+
+// From the true place in the first tenth of a second in contact to that in the last, by medians: about a period of a
+// hand's tremor, which at rest would make the lowest and the highest true place too far apart. nan if there is none.
+double true_length_m(const Truth& truth) {
+  constexpr std::int64_t kEnd_ns = 100'000'000;
+  std::size_t first = 0, last = truth.size();
+  while (first < last && !(truth.force_N[first] > 0.0 && std::isfinite(truth.s_m[first]))) ++first;
+  while (last > first && !(truth.force_N[last - 1] > 0.0 && std::isfinite(truth.s_m[last - 1]))) --last;
+  if (last == first) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> begin_m, end_m;
+  for (std::size_t i = first; i < last; ++i) {
+    if (!std::isfinite(truth.s_m[i])) continue;
+    if (truth.t_ns[i] - truth.t_ns[first] <= kEnd_ns) begin_m.push_back(truth.s_m[i]);
+    if (truth.t_ns[last - 1] - truth.t_ns[i] <= kEnd_ns) end_m.push_back(truth.s_m[i]);
+  }
+  return median(end_m) - median(begin_m);
 }
 
 // The true heights, nan where the tip was off the surface for longer than a bounce: there is no surface in
@@ -154,6 +173,7 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
       aligned = align_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
     }
     out.profile = aligned.comparison;
+    out.profile->length_error_percent = 100.0 * (measure_coverage(profile).length_m / true_length_m(truth) - 1.0);
     out.heights = std::move(aligned.heights);
   }
   return out;

@@ -86,7 +86,11 @@ Coverage measure_coverage(const Profile& profile) {
     out.gaps += !present(i) && present(i - 1) ? 1 : 0;
   }
   if (last == first) return out;
-  out.length_m = static_cast<double>(last - 1 - first) * profile.spacing_m;
+  // Where the heights reach an end of the path, up to it: a grid's points alone are too short by a spacing or more.
+  const double reach_m = 2.0 * profile.spacing_m;
+  const double from_m = profile.s_m[first] - profile.from_m < reach_m ? profile.from_m : profile.s_m[first];
+  const double to_m = profile.to_m - profile.s_m[last - 1] < reach_m ? profile.to_m : profile.s_m[last - 1];
+  out.length_m = to_m - from_m;
   out.covered = static_cast<double>(covered) / static_cast<double>(last - first);
   return out;
 }

@@ -108,6 +108,31 @@ TEST(MeasureAccuracy, ATextureIsComparedThroughItsOwnHighPass) {
   EXPECT_LT(accuracy.profile->true_rms_um, 1e6 * kAmplitude_m);
 }
 
+TEST(MeasureAccuracy, TremorAtRestDoesNotLengthenTheTruth) {
+  Recording recording = make_recording();
+  constexpr std::size_t kRest = 500;
+  constexpr double kTremor_m = 50e-6, kTremor_Hz = 10.0;
+  Truth& truth = *recording.truth;
+  const double first_m = truth.s_m[kRest], last_m = truth.s_m[kSamples - kRest];
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    if (i >= kRest && i < kSamples - kRest) continue;
+    const double t_s = 1e-3 * static_cast<double>(i);
+    truth.s_m[i] = (i < kRest ? first_m : last_m) + kTremor_m * std::sin(2.0 * std::numbers::pi * kTremor_Hz * t_s);
+    truth.height_m[i] = wave_m(truth.s_m[i]);
+  }
+  Profile profile;
+  profile.from_m = 0.0;
+  profile.to_m = last_m - first_m;
+  for (std::size_t i = 1; static_cast<double>(i) * profile.spacing_m < profile.to_m; ++i) {
+    profile.s_m.push_back(static_cast<double>(i) * profile.spacing_m);
+    profile.height_m.push_back(wave_m(profile.s_m.back() + first_m));
+  }
+  const Accuracy accuracy = measure_accuracy(recording, make_motion(recording, Eigen::Vector3d::Zero()), profile, {});
+  ASSERT_TRUE(accuracy.profile);
+  // A tenth of a second is one period, whose median is 0 but for its samples' spacing of 3 µm, of 50 mm.
+  EXPECT_NEAR(accuracy.profile->length_error_percent, 0.0, 0.01);
+}
+
 TEST(MeasureAccuracy, WithoutHeightsOnlyPositionsAreCompared) {
   Recording recording = make_recording();
   recording.truth->height_m.assign(kSamples, kNan);

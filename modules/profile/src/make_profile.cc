@@ -142,6 +142,8 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
 
   Profile out;
   out.spacing_m = config.spacing_m;
+  out.from_m = low_m;
+  out.to_m = high_m;
   count_points(high_m - low_m, config.spacing_m);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(low_m / config.spacing_m - 1e-9));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(high_m / config.spacing_m + 1e-9));

@@ -65,6 +65,18 @@ TEST(MakeProfile, ReproducesAKnownHeightFromDenseAndSparseSamples) {
   }
 }
 
+TEST(MakeProfile, KnowsWhereThePathEndsBetweenItsPoints) {
+  std::vector<double> t_s, s_m;
+  for (int i = 0; i <= 4000; ++i) {
+    t_s.push_back(i / 2000.0);
+    s_m.push_back(0.011e-3 + 0.025 * t_s.back());
+  }
+  const Flat flat = make_flat(t_s, s_m, sine(50e-6, 0.5e-3));
+  const Profile profile = make_profile(flat.motion, flat.base, {}, {});
+  EXPECT_DOUBLE_EQ(profile.from_m, s_m.front());
+  EXPECT_DOUBLE_EQ(profile.to_m, s_m.back());
+}
+
 TEST(MakeProfile, DetailBeyondTheSpacingDoesNotFold) {
   // 32 cycles/mm would fold to 8 at 40 points a mm.
   const Flat flat = make_even(20000.0, 0.02, 1.0, sine(10e-6, 1e-3 / 32.0));

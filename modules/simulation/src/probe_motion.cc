@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "asperity/geometry/pose.h"
@@ -41,6 +42,10 @@ ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface,
                             point.v_m + start.lateral_m * std::cos(point.angle_rad));
   height_m_ = profile_.at(s_m_, indentation_m).height_m + aside_m_ - indentation_m;
   rest_height_m_ = height_m_ - start.tremor_m;
+  // Set down on a slope, the tip slides until friction and the hand's spring hold it.
+  constexpr double kSettling_s = 0.5;
+  const auto steps = static_cast<std::int64_t>(std::ceil(kSettling_s / config.step_s));
+  for (std::int64_t i = 0; i < steps; ++i) step(start);
 }
 
 double ProbeMotion::ground_aside_m(const ScanPoint& on_path, double a_m, double v_m) {
@@ -54,8 +59,9 @@ double ProbeMotion::ground_aside_m(const ScanPoint& on_path, double a_m, double 
   return ground_aside_.height_m - ground_on_path_.height_m;
 }
 
-MotionState ProbeMotion::next() {
-  const HandState hand = hand_.next();
+MotionState ProbeMotion::next() { return step(hand_.next()); }
+
+MotionState ProbeMotion::step(const HandState& hand) {
   const SimulatedContactConfig& contact = config_.contact;
   const ScanPoint point = path_.at(s_m_);
   const double cosine = std::cos(point.angle_rad);

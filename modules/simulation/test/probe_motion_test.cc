@@ -70,6 +70,17 @@ TEST(ProbeMotion, TipFollowsAGentleRelief) {
   EXPECT_LT(worst_m, 1.5e-6);
 }
 
+TEST(ProbeMotion, TheTipIsAtRestWhenTimeBegins) {
+  // Set down on a slope of 0.63, which friction of 0.22 does not hold.
+  SimulationConfig config = calm("sine", "stiff");
+  config.surface.amplitude_m = 0.2e-3;
+  const auto states = run(config);
+  const MotionState& later = states[static_cast<std::size_t>(0.4 / config.step_s)];
+  EXPECT_GT(std::abs(states.front().s_m), 20e-6);  // it has slid before
+  EXPECT_NEAR(later.s_m, states.front().s_m, 1e-6);
+  EXPECT_NEAR(later.height_m, states.front().height_m, 1e-6);
+}
+
 TEST(ProbeMotion, LiftingOffLosesTheContact) {
   SimulationConfig config = flat("stiff");
   config.hand.lifts = 1;

@@ -35,7 +35,7 @@ struct SpeedStatistics {
 
 // The part of a profile that has heights.
 struct Coverage {
-  double length_m = 0.0;  // from the first to the last height
+  double length_m = 0.0;  // from the first to the last height, or the path's ends beside them
   double covered = 0.0;   // part of it that is not gap
   std::size_t gaps = 0;
 };

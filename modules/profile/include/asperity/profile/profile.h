@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -7,6 +8,9 @@ namespace asperity {
 // Height along the scan path, uniform in arc length (profile.csv). Heights are nan in gaps.
 struct Profile {
   double spacing_m = 0.025e-3;
+  // The ends of the path in contact, between which the points lie; nan: not known.
+  double from_m = std::numeric_limits<double>::quiet_NaN();
+  double to_m = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> s_m;              // along the base path (erratum 23)
   std::vector<double> height_m;         // along the outward normal, only the base shape removed
   std::vector<double> sigma_m;          // standard deviation of height_m; nan if the method gives none

@@ -31,7 +31,8 @@ struct MotionState {
 // another (semi-implicit Euler). Along the normal
 //   m h'' = F_c − F_hand,  F_c = max(0, k (z − h) + c (z' − h')),
 // along the path a hand spring against LuGre friction and the relief's slope; orientation and lateral
-// deviation follow the hand exactly (docs/virtual-bench.md).
+// deviation follow the hand exactly (docs/virtual-bench.md). Before time begins the hand has held still on the
+// object until the tip has come to rest.
 class ProbeMotion {
  public:
   // On the plane or cylinder of `config.shape`.
@@ -47,6 +48,8 @@ class ProbeMotion {
   const ScanPath& path() const { return path_; }
 
  private:
+  // The state now, with this hand; moves on by one step.
+  MotionState step(const HandState& hand);
   void advance(const HandState& hand);
   // The object under a tip that is off the path, less that on the path, which is in the profile.
   double ground_aside_m(const ScanPoint& on_path, double a_m, double v_m);
