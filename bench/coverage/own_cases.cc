@@ -81,7 +81,8 @@ void draw_hand(SimulationConfig& config, Random& random) {
   if (random.chance(0.2)) hand.path = asperity::HandPathShape::kCurved;
 }
 
-// Strokes side by side, some 3 to 10 s in all. From numbers of its own: the scans that are no rasters stay as they were.
+// Strokes side by side, some 3 to 10 s in all. From numbers of its own: the scans that are no rasters stay as they
+// were.
 void draw_raster(SimulationConfig& config, std::uint64_t seed, CasePaths paths) {
   constexpr double kShare = 0.15;
   Random random(seed, 0x726173);

@@ -17,9 +17,14 @@ enum class PathPart : char { kStraight, kBend, kBesideBend };
 std::vector<PathPart> find_bends(const EvenPath<2>& slow, const EvenPath<2>& quick, const std::vector<char>& moving,
                                  const std::vector<char>& cut, std::size_t reach);
 
+// Marks as bends the cells of reversals: where the quick path turns by more than 60° within `side` cells on either side
+// and the sharp one moves. Rows that are close together are cut by less than noise could, but a turn is certain.
+void mark_reversals(const EvenPath<2>& quick, const EvenPath<2>& sharp, const std::vector<char>& moving,
+                    double rest_mps, std::size_t side, std::vector<PathPart>& parts);
+
 // Bends by the direction of a path that follows them closer than `tangent` does (docs/profile-length.md). Noise and
 // tremor turn that direction too: a velocity w across the path lengthens it by w²/(2 v) a second. What that is where
-// the path is straight gives w², and with it what is left out.
+// the path is straight, or beside bends where little of it is, gives w², and with it what is left out.
 class CloserDirection {
  public:
   // All one a cell.

@@ -30,13 +30,13 @@ constexpr double kCreep_mps = 0.5e-3;  // about as fast as tips slide down the e
 // Standard deviations: creep below the first is noise (at the ends of a recording it is up to twice the usual), from
 // the second on it is none; in between in proportion, so that the length has no step.
 constexpr double kPerhapsCrept = 2.0, kCrept = 4.0;
-constexpr double kClearMotion = 4.0;      // times what noise and tremor seem to move the tip: a direction within 15°
-constexpr double kMostRest = 0.5;         // of the usual speed is motion, however noisy
-constexpr double kBeyondNoise = 5.0;      // standard deviations: further no noise carries the tip
-constexpr double kSameWay = 0.5;          // cosine: two directions within 60° are no reversal
-constexpr double kUsualBend_m = 0.7e-3;   // where nothing is known of the noise
-constexpr double kCloser = 2.0;           // times the bends' cut-off: of the direction in bends
-constexpr double kMostTurned_rad = 0.07;  // by noise, which lengthens by a quarter of a per cent: no closer
+constexpr double kClearMotion = 4.0;     // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;        // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;     // standard deviations: further no noise carries the tip
+constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
+constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
+constexpr double kCloser = 4.0;          // times the bends' cut-off: of the direction in bends
+constexpr double kMostTurned_rad = 0.3;  // by noise, if it were white: no closer
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -59,15 +59,17 @@ double wandering_mps(const EvenPath<2>& slow, const EvenPath<2>& quick, const st
   return aside_mps.empty() ? 0.0 : kSigmaPerMad * median(aside_mps);
 }
 
-// Of cells that seem to move, keeps the runs that carry the tip further than `reach_m`: noise goes to and fro. All, if
-// none does.
+// Of cells that seem to move, keeps the runs in which the tip gets further than `reach_m` from where it was: noise goes
+// to and fro. Not by where a run ends: two rows of a raster end where they began. All, if none does.
 void leave_out_noise(const EvenPath<2>& quick, double reach_m, std::vector<char>& moving) {
   std::vector<char> kept(moving.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < moving.size();) {
     std::size_t end = i;
-    while (end < moving.size() && moving[end] != 0) ++end;
-    if (end > i && (quick.p_m[end - 1] - quick.p_m[i]).norm() > reach_m) {
+    double furthest_m = 0.0;
+    for (; end < moving.size() && moving[end] != 0; ++end)
+      furthest_m = std::max(furthest_m, (quick.p_m[end] - quick.p_m[i]).norm());
+    if (furthest_m > reach_m) {
       std::fill(kept.begin() + static_cast<std::ptrdiff_t>(i), kept.begin() + static_cast<std::ptrdiff_t>(end),
                 char{1});
       any = true;
@@ -258,16 +260,19 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const std::vector<char> beside =
       bend_m > 2.0 * config.noise_m ? beside_stops(moving, slow_Hz, path.step_s) : std::vector<char>(moving.size(), 0);
   const Directions directions = find_directions(path, slow, quick, moving, beside, bend_m);
-  // As close as noise of σ turns the direction by no more than kMostTurned_rad. Where that is no closer than the quick
-  // one, the bends are not followed, and what they hide is an error alone.
-  const double quiet_Hz = config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : 0.0;
-  const bool follows = quiet_Hz > quick_Hz;
   const auto reach = static_cast<std::size_t>(0.5 / (slow_Hz * path.step_s));
   std::vector<char> cut(path.size(), 0);
   for (std::size_t i = 0; i < path.size() && bend_m > 2.0 * config.noise_m; ++i)
     cut[i] = moving[i] != 0 && cut_m(slow, quick, i, beside[i] != 0) > bend_m ? 1 : 0;
-  const CloserDirection closer(low_pass(path, follows ? std::min(kCloser * quick_Hz, quiet_Hz) : kCloser * quick_Hz),
-                               directions.tangent, moving, find_bends(slow, quick, moving, cut, reach));
+  // Where noise lets it be followed no closer than the quick path does, what the bends hide is an error alone.
+  const double closer_Hz = kCloser * quick_Hz;
+  const double quiet_Hz =
+      config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : closer_Hz;
+  const bool follows = quiet_Hz > quick_Hz;
+  const auto sharp = low_pass(path, follows ? std::min(closer_Hz, quiet_Hz) : closer_Hz);
+  std::vector<PathPart> parts = find_bends(slow, quick, moving, cut, reach);
+  mark_reversals(quick, sharp, moving, rest_mps, static_cast<std::size_t>(0.5 / (quick_Hz * path.step_s)), parts);
+  const CloserDirection closer(sharp, directions.tangent, moving, std::move(parts));
   out.bends_m = closer.added_m();
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];

@@ -206,6 +206,41 @@ TEST(ArcLength, TheTurnsOfARasterAreFollowed) {
   }
 }
 
+// Rows that are closer together than noise: what is between them is cut by less than a bend, but a reversal is certain.
+// Two of them end where they began, and are no noise.
+TEST(ArcLength, RowsThatAreCloserThanNoiseAreFollowed) {
+  constexpr double kRow_m = 0.019, kSpeed_mps = 0.025, kRest_s = 0.6, kSigma_m = 0.1e-3;
+  constexpr int kRows = 6, kSeeds = 6;
+  for (const double radius_m : {0.1e-3, 0.3e-3}) {
+    const double turn_m = std::numbers::pi * radius_m, period_m = kRow_m + turn_m;
+    const double true_m = kRows * period_m - turn_m;
+    double sum_m = 0.0;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
+      SlowNoise x(kSigma_m, 3.0, kRate_hz, of(0)), y(kSigma_m, 3.0, kRate_hz, of(1));
+      std::vector<double> t_s;
+      std::vector<Eigen::Vector2d> u_m;
+      for (int i = 0; i < static_cast<int>((true_m / kSpeed_mps + 2.0 * kRest_s) * kRate_hz); ++i) {
+        t_s.push_back(i / kRate_hz);
+        const double way_m = std::clamp(kSpeed_mps * (t_s.back() - kRest_s), 0.0, true_m);
+        const int row = std::min(static_cast<int>(way_m / period_m), kRows - 1);
+        const double in_row_m = way_m - row * period_m, angle = std::max(0.0, in_row_m - kRow_m) / radius_m;
+        const double reach_m = in_row_m < kRow_m ? in_row_m : kRow_m + radius_m * std::sin(angle);
+        const double aside_m = 2.0 * radius_m * row + (in_row_m < kRow_m ? 0.0 : radius_m * (1.0 - std::cos(angle)));
+        u_m.emplace_back((row % 2 == 0 ? reach_m : kRow_m - reach_m) + x.next(), aside_m + y.next());
+      }
+      ArcLengthConfig config;
+      config.noise_m = kSigma_m;
+      config.bend_m = 5.0 * kSigma_m;
+      const double error_m = measure_arc_length(t_s, u_m, {}, config).s_m.back() - true_m;
+      EXPECT_NEAR(error_m, 0.0, 1.5e-3) << radius_m << ' ' << seed;  // a row is 19 mm
+      sum_m += error_m;
+    }
+    // What is sharper than the noise is rounded by it: at most σ a reversal, and that of the two ends.
+    EXPECT_NEAR(sum_m / kSeeds, 0.0, (kRows - 1) * kSigma_m + 3.0 * kSigma_m * std::sqrt(2.0 / kSeeds)) << radius_m;
+  }
+}
+
 // Corners at which the tip only slows down are bends, of which little is cut.
 TEST(ArcLength, FollowsAZigzag) {
   std::vector<double> t_s;
