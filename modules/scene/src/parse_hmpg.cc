@@ -22,7 +22,7 @@ class HmpgParser {
 
   HapticExperience run() {
     while (!bytes_.empty()) read_unit();
-    if (!metadata_) fail("there is no initialization unit");
+    if (!metadata_) fail("the initialization unit is missing");
     check_haptic_experience(out_, name_);
     if (out_.perceptions.size() != perception_count_) fail("the number of perceptions is not the stated one");
     for (const HapticPerception& perception : out_.perceptions)

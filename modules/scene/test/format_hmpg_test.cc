@@ -270,7 +270,7 @@ TEST(ParseHmpg, RefusesEveryFileThatEndsEarly) {
   for (std::size_t size = 0; size < whole.size(); ++size) {
     if (size == 9 + 103) continue;  // the metadata alone: a channel without keyframes
     EXPECT_THAT(refusal_of(whole.substr(0, size)),
-                testing::AnyOf(HasSubstr("ends early"), HasSubstr("there is no initialization unit")))
+                testing::AnyOf(HasSubstr("ends early"), HasSubstr("the initialization unit is missing")))
         << size;
   }
   EXPECT_THAT(refusal_of(whole.substr(0, 9 + 103)), HasSubstr("bad.hmpg: HMPG: the channel 'c' has no keyframes"));
