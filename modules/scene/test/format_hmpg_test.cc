@@ -297,6 +297,34 @@ TEST(ParseHmpg, NamesWhatItDoesNotRead) {
   EXPECT_THAT(changed(9 + 3 + 4, 1), HasSubstr("a timescale of"));
 }
 
+// A stream may cut an effect where a unit ends: it continues in a dependent unit, its position before that unit's
+// begin. A silent unit is time without effects. Units of 100, 10 and 100 ticks, effects from 0 and from 150.
+TEST(ParseHmpg, JoinsAnEffectThatContinuesInALaterUnit) {
+  HapticExperience begin = long_vibration();
+  begin.perceptions[0].channels[0].keyframes = {{0, -1.0}, {50, 1.0}};
+  const std::string whole = format_hmpg(begin);
+  const auto data = [](int dependent, std::int64_t position, std::vector<Field> frames) {
+    std::vector<Field> fields{{dependent, 1}, {0, 8},
+                              {0, 16},        {0, 8},
+                              {1, 16},        {0, 16},
+                              {0, 2},         {static_cast<std::uint64_t>(position) & 0x1ffffff, 25},
+                              {0, 1},         {frames.size() / 2, 16}};
+    fields.insert(fields.end(), frames.begin(), frames.end());
+    const std::string payload = bytes_of(fields);
+    return packet(5, payload.size()) + payload;
+  };
+  const std::string first = data(0, 0, {{0, 8}, {0, 16}, {255, 8}, {50, 16}});
+  const std::string later = data(1, -110, {{0, 8}, {120, 16}}) + data(0, 40, {{255, 8}, {5, 16}});
+  const std::string metadata = whole.substr(0, whole.size() - 9 - first.size());
+  const HapticExperience read = parse_hmpg(
+      metadata + unit(1, 100, first.size()) + first + unit(3, 10, 0) + unit(1, 100, later.size()) + later, "x");
+  std::vector<std::pair<std::int64_t, double>> frames;
+  for (const HapticKeyframe& frame : read.perceptions.at(0).channels.at(0).keyframes)
+    frames.emplace_back(frame.position, frame.amplitude);
+  EXPECT_THAT(frames, testing::ElementsAre(testing::Pair(0, -1.0), testing::Pair(50, 1.0), testing::Pair(120, -1.0),
+                                           testing::Pair(155, 1.0)));
+}
+
 // The same initialization unit again, as a stream repeats it, changes nothing; another one is refused.
 TEST(ParseHmpg, ReadsARepeatedInitialization) {
   const std::string whole = format_hmpg(small_texture()), metadata = whole.substr(0, 9 + 103);
