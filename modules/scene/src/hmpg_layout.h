@@ -7,8 +7,9 @@
 
 namespace asperity {
 
-// The numbers of HMPG, the distribution format of ISO/IEC 23090-31, as MPEGGroup/HapticReferenceSoftware has them at
-// 8ec8b57f (IOStream, IOBinaryFields: MIHS units with a layer). Fields are in format_hmpg.cc, in the order of the file.
+// The numbers of HMPG, the distribution format of ISO/IEC 23090-31, as MPEGGroup/HapticReferenceSoftware has them:
+// units and packets at 8ec8b57f (IOStream, IOBinaryFields: MIHS units with a layer), modalities at 1bc5bef5
+// (Perception), which is later. Fields are in format_hmpg.cc, in the order of the file.
 
 enum class HmpgUnit { kInitialization = 0, kTemporal = 1, kSpatial = 2, kSilent = 3 };
 
@@ -23,7 +24,7 @@ enum class HmpgPacket {
 };
 
 // In the order of HapticModality.
-inline constexpr std::array<int, 4> kHmpgModalities{6, 10, 11, 12};
+inline constexpr std::array<int, 4> kHmpgModalities{6, 10, 12, 13};
 inline constexpr int kHmpgCurveBand = 1;
 inline constexpr int kHmpgLinearCurve = 2;
 inline constexpr int kHmpgBasisEffect = 0;

@@ -115,6 +115,23 @@ TEST(FormatHmpg, HasTheBytesOfTheLayout) {
   EXPECT_EQ(format_hmpg(small_texture()), expected);
 }
 
+// PerceptionModality of the reference software at 1bc5bef5: Vibrotactile 6, VibrotactileTexture 10, Stiffness 12,
+// Friction 13. An earlier version had 11 and 12 for the last two.
+TEST(FormatHmpg, NumbersTheModalities) {
+  const std::size_t at = 9 + 18 + 23 + 3 + 4;
+  const std::vector<std::pair<HapticModality, char>> numbers{{HapticModality::kVibrotactile, 6},
+                                                             {HapticModality::kVibrotactileTexture, 10},
+                                                             {HapticModality::kStiffness, 12},
+                                                             {HapticModality::kFriction, 13}};
+  for (const auto& [modality, number] : numbers) {
+    HapticExperience experience = small_texture();
+    experience.perceptions[0].modality = modality;
+    const std::string bytes = format_hmpg(experience);
+    EXPECT_EQ(bytes[at], number);
+    EXPECT_EQ(parse_hmpg(bytes, "x").perceptions[0].modality, modality);
+  }
+}
+
 TEST(ParseHmpg, ReadsTheBytesOfTheLayout) {
   const HapticExperience read = parse_hmpg(small_texture_bytes(), "small.hmpg");
   EXPECT_EQ(read.description, "d");

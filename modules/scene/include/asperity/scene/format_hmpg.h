@@ -29,8 +29,9 @@ namespace asperity {
 // the codes), gains −10000 to 10000, weights 0 to 10000. Each perception gets the unit exponent, a multiple of 3 from
 // its own on, at which its greatest gain is between 10 and 10000, so that a gain's error is below 3e-7 of it.
 //
-// Layout and values are those of the reference software (MPEGGroup/HapticReferenceSoftware at 8ec8b57f, what its
-// IOStream reads; ids are unique in the experience, as its reader needs them). The standard's text was not read.
+// The layout is what IOStream of the reference software (MPEGGroup/HapticReferenceSoftware) reads at 8ec8b57f; ids are
+// unique in the experience, as its reader needs them. The numbers of the modalities (6, 10, 12, 13) are those of the
+// later 1bc5bef5. The ranges that IOCompatibility checks at 199fd094 are these. The standard's text was not read.
 // Frequencies above 65535 become 65535. Throws Error as format_hjif, and for a position above 16777215, more than 256
 // perceptions or channels, 65535 effects or 4 GiB, a gain above 1e130, or vibrations whose effects overlap in time.
 std::string format_hmpg(const HapticExperience& experience);
