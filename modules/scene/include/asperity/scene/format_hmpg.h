@@ -32,8 +32,8 @@ namespace asperity {
 // The layout is what IOStream of the reference software (MPEGGroup/HapticReferenceSoftware) reads at 8ec8b57f; ids are
 // unique in the experience, as its reader needs them. The numbers of the modalities (6, 10, 12, 13) are those of the
 // later 1bc5bef5. The ranges that IOCompatibility checks at 199fd094 are these. The standard's text was not read.
-// Frequencies above 65535 become 65535. Throws Error as format_hjif, and for a position above 16777215, more than 256
-// perceptions or channels, 65535 effects or 4 GiB, a gain above 1e130, or vibrations whose effects overlap in time.
+// Frequencies above 65535 become 65535. Throws Error as format_hjif, and for a position above 16777215, more than 255
+// perceptions, 256 channels, 65536 effects or 4 GiB, a gain above 1e130, or vibrations whose effects overlap in time.
 std::string format_hmpg(const HapticExperience& experience);
 
 // The greatest difference of a keyframe's value from the one that format_hmpg writes, in the values' SI unit.
