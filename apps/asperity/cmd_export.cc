@@ -41,7 +41,8 @@ class ExportCommand : public Command {
         parser().add_option(
             "--to", format_,
             "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
-            "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif"))
+            "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif, "
+            "hmpg"))
         ->type_name("FORMAT")
         ->suggest(kExportFormatNames)
         ->suggest(kHeightFileNames);
@@ -76,8 +77,8 @@ class ExportCommand : public Command {
     const auto name = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_);
     const auto heights_as = height_file_of(format_);
     if (name == kExportFormatNames.end() && !heights_as) {
-      const std::vector<std::string> known{"obj",  "gltf", "usda", "png",        "wav", "ahap", "haps",
-                                           "hjif", "x3p",  "sdf",  "sdf-binary", "gsf", "stl"};
+      const std::vector<std::string> known{"obj",  "gltf", "usda", "png", "wav",        "ahap", "haps",
+                                           "hjif", "hmpg", "x3p",  "sdf", "sdf-binary", "gsf",  "stl"};
       const std::string nearest = format_ == "glb" ? "gltf" : nearest_word(format_, known);
       throw UsageError("--to: '" + printable(format_) + "' is none of " + fmt::format("{}", fmt::join(known, ", ")) +
                        (nearest.empty() ? "" : "; did you mean " + nearest + "?"));

@@ -126,7 +126,7 @@ class SimulateCommand : public Command {
   int run(const Observer& observer) override {
     OutputFolder folder(output_, is_replaceable_recording);
     if (live_) return play(folder, observer);
-    const Recording recording = simulate_recording(*config_, observer);
+    const Recording recording = simulate_recording(*config_, observer, &problems_);
     write_recording(folder.path(), recording);
     observer.update("writing", 1.0);
     commit_output(folder, output_);
@@ -136,7 +136,8 @@ class SimulateCommand : public Command {
 
  private:
   int play(OutputFolder& folder, const Observer& observer) {
-    const Recording recording = simulate_live_recording(*config_, live_config_, observer);
+    const Recording recording = simulate_live_recording(*config_, live_config_, observer, &problems_);
+    for (const Problem& problem : problems_) print_error("warning: " + printable(problem.message, 600));
     LiveReport report;
     {
       LiveScan scan(recording, config_->probe, live_config_, folder.path());
@@ -165,9 +166,13 @@ class SimulateCommand : public Command {
     out["probe_rows"] = probe.size();
     out["tracker_rows"] = recording.tracker.size();
     if (!recording.body_poses.empty()) out["object_rows"] = recording.body_poses.front().size();
+    if (!problems_.empty()) out["problems"] = Json::array();
+    for (const Problem& problem : problems_)
+      out["problems"].push_back({{"kind", problem.kind}, {"message", printable(problem.message, 600)}});
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
+    for (const Problem& problem : problems_) say("warning: " + printable(problem.message, 600) + "\n");
     say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,
                     probe.size(), recording.tracker.size()));
   }
@@ -185,6 +190,7 @@ class SimulateCommand : public Command {
   std::string output_;
   bool live_ = false;
   std::optional<SimulationConfig> config_;
+  Problems problems_;  // of the file of heights
   LiveBenchConfig live_config_;
 };
 

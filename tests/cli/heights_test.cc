@@ -208,6 +208,16 @@ TEST_F(EveryHeightsFile, WarnsOfASumThatDoesNotHold) {
   EXPECT_EQ(fitted.code, 0) << fitted.err;
   EXPECT_THAT(fitted.out, HasSubstr("note: " + at("line.smd") + ": " + warning));
   EXPECT_THAT(cli::run({"texture", "compare", at("line.smd"), at("line.texture.json")}).err, HasSubstr(warning));
+  const std::vector<std::string> simulate{"simulate",           "--surface", at("line.smd"), "--set",
+                                          "hand.length_m=0.01", "-o",        at("rec")};
+  const Outcome simulated = cli::run(simulate);
+  EXPECT_EQ(simulated.code, 0) << simulated.err;
+  EXPECT_THAT(simulated.out, HasSubstr("warning: " + at("line.smd") + ": " + warning));
+  std::vector<std::string> with_json = simulate;
+  with_json.push_back("--json");
+  const auto about = nlohmann::json::parse(cli::run(with_json).out);
+  ASSERT_EQ(about.at("problems").size(), 1U);
+  EXPECT_EQ(about.at("problems")[0].at("kind"), "checksum");
 }
 
 TEST_F(EveryHeightsFile, OfATiffIsRefusedWithoutASpacing) {

@@ -72,7 +72,7 @@ TEST_F(PaintCommands, APaintedSceneIsPaintedOnAndExported) {
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(Json::parse(again.out).at("texture").at("index"), 2);
   EXPECT_GT(Json::parse(again.out).at("painted_over").get<int>(), 0);
-  for (const std::string format : {"obj", "gltf", "usda", "png", "wav", "ahap", "haps", "hjif", "x3p", "stl"}) {
+  for (const std::string format : {"obj", "gltf", "usda", "png", "wav", "ahap", "haps", "hjif", "hmpg", "x3p", "stl"}) {
     const Outcome outcome = run({"export", path("out"), "--to", format, "--speed", "50mm/s"});
     EXPECT_EQ(outcome.code, 0) << format << ": " << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(path("out-" + format))) << format;
@@ -86,7 +86,7 @@ TEST_F(PaintCommands, AnExportSaysThatItsSourceIsInvalid) {
   write_text(path("result/texture.json"), kTexture);
   write_text(path("result/result.json"),
              R"({"format":"asperity-result","trustworthy":false,"verdict":"invalid: the tip was in the air"})");
-  for (const std::string format : {"hjif", "ahap", "wav", "png"}) {
+  for (const std::string format : {"hjif", "hmpg", "ahap", "wav", "png"}) {
     const Outcome outcome = run({"export", path("result"), "--to", format, "-o", path("to-" + format)});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out + outcome.err, testing::HasSubstr("the tip was in the air"));
@@ -94,6 +94,7 @@ TEST_F(PaintCommands, AnExportSaysThatItsSourceIsInvalid) {
     EXPECT_THAT(about.at("warnings").at(0).get<std::string>(), testing::HasSubstr("the tip was in the air"));
   }
   EXPECT_THAT(content_of(path("to-hjif/texture.hjif")), testing::HasSubstr("the tip was in the air"));
+  EXPECT_THAT(content_of(path("to-hmpg/texture.hmpg")), testing::HasSubstr("the tip was in the air"));
 }
 
 TEST_F(PaintCommands, AnUnlikelyUnitIsAskedForBeforeAnythingIsDone) {
@@ -216,8 +217,8 @@ TEST_F(PaintCommands, AnExportNamesWhatThereIsAndWhatItCanBecome) {
   const Outcome stl = run({"export", path("result"), "--to", "stl"});
   EXPECT_EQ(stl.code, 1);
   EXPECT_THAT(stl.err, testing::HasSubstr("result: stl needs a mesh, and there is none, only texture.json (fourier1d) "
-                                          "and profile.csv. It can be exported to png, wav, ahap, haps, hjif, x3p, "
-                                          "sdf, sdf-binary, gsf"));
+                                          "and profile.csv. It can be exported to png, wav, ahap, haps, hjif, hmpg, "
+                                          "x3p, sdf, sdf-binary, gsf"));
   EXPECT_FALSE(std::filesystem::exists(path("result-stl")));
   const Outcome png = run({"export", path("plane.obj"), "--to", "png"});
   EXPECT_EQ(png.code, 1);

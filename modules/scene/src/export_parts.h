@@ -27,9 +27,9 @@ TextureMaps add_images(const std::string& stem, const SceneTexture& texture, con
 void add_vibration(const std::string& stem, const SceneTexture& texture, ExportFormat format,
                    const ExportConfig& config, ExportResult& out);
 
-// <stem>.hjif: the texture along its scan path, its stiffness and its friction.
-void add_hjif(const std::string& stem, const Scene& scene, const SceneTexture& texture, const ExportConfig& config,
-              ExportResult& out);
+// <stem>.hjif or .hmpg: the texture along its scan path, its stiffness and its friction.
+void add_haptics(const std::string& stem, const Scene& scene, const SceneTexture& texture, ExportFormat format,
+                 const ExportConfig& config, ExportResult& out);
 
 // An object as <stem>.obj, .glb or .usda, with its textures' images; `used` are the stems that are taken.
 void add_mesh_object(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,

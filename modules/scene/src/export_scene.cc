@@ -147,8 +147,8 @@ void add_texture(const std::string& stem, const Scene& scene, const SceneTexture
                  const ExportConfig& config, const Observer& observer, ExportResult& out) {
   if (format == ExportFormat::kWav || format == ExportFormat::kAhap || format == ExportFormat::kHaps) {
     add_vibration(stem, texture, format, config, out);
-  } else if (format == ExportFormat::kHjif) {
-    add_hjif(stem, scene, texture, config, out);
+  } else if (format == ExportFormat::kHjif || format == ExportFormat::kHmpg) {
+    add_haptics(stem, scene, texture, format, config, out);
   } else if (!is_height_field(texture.texture.model)) {
     out.problems.push_back({"not_exported", printable(stem) + ": a force in time has no heights", 1});
   } else if (format == ExportFormat::kPng) {

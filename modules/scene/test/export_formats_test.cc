@@ -239,7 +239,8 @@ TEST(ExportScene, AWarningIsInTheFile) {
       {ExportFormat::kObj, "plate.mtl"},         {ExportFormat::kGltf, "plate.glb"},
       {ExportFormat::kUsda, "plate.usda"},       {ExportFormat::kPng, "cosine.images.json"},
       {ExportFormat::kWav, "cosine.sound.json"}, {ExportFormat::kAhap, "cosine.ahap"},
-      {ExportFormat::kHaps, "cosine.haps"},      {ExportFormat::kHjif, "cosine.hjif"}};
+      {ExportFormat::kHaps, "cosine.haps"},      {ExportFormat::kHjif, "cosine.hjif"},
+      {ExportFormat::kHmpg, "cosine.hmpg"}};
   for (const auto& [format, name] : where) {
     EXPECT_THAT(exported(scene, format).at(name), HasSubstr("the tip was in the air")) << name;
     EXPECT_THAT(exported(painted_scene(), format).at(name), testing::Not(HasSubstr("arning"))) << name;
@@ -257,7 +258,8 @@ TEST(ExportScene, NamesWhatAFormatCannotHold) {
   Scene scene = painted_scene();
   scene.objects[0].textures[0].texture.compliance_kc = 0.2;
   scene.static_friction_ratio = 1.5;
-  for (const ExportFormat format : {ExportFormat::kGltf, ExportFormat::kObj, ExportFormat::kHjif}) {
+  for (const ExportFormat format :
+       {ExportFormat::kGltf, ExportFormat::kObj, ExportFormat::kHjif, ExportFormat::kHmpg}) {
     std::string all;
     for (const Problem& problem : export_scene(scene, format).problems) {
       EXPECT_EQ(problem.kind, "not_exported");

@@ -270,10 +270,10 @@ void add_bench_camera(Recording& recording, const LiveBenchConfig& live) {
 }
 
 Recording simulate_live_recording(const SimulationConfig& simulation, const LiveBenchConfig& live,
-                                  const Observer& observer) {
+                                  const Observer& observer, Problems* problems) {
   if (simulation.object.motion != SimulatedObjectMotion::kNone)
     throw Error("simulation.object.motion: the rendered camera shows the probe's body alone; choose none");
-  Recording recording = simulate_recording(without_link_faults(simulation), observer);
+  Recording recording = simulate_recording(without_link_faults(simulation), observer, problems);
   add_bench_camera(recording, live);
   return recording;
 }

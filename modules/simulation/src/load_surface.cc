@@ -236,10 +236,13 @@ std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSu
 
 }  // namespace
 
-std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
+std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config, Problems* problems) {
   if (config.file.empty()) throw Error("simulation.surface.file: empty, but surface.kind is \"file\"");
   std::string bytes = read_file(config.file, kLimitBytes);
-  if (auto file = parse_surface_file(bytes, config.file)) return instrument_relief(std::move(*file), config);
+  if (auto file = parse_surface_file(bytes, config.file)) {
+    if (problems != nullptr) problems->insert(problems->end(), file->problems.begin(), file->problems.end());
+    return instrument_relief(std::move(*file), config);
+  }
   if (is_tiff(bytes)) return tiff_relief(bytes, config);
   const std::string text = decode_text(std::move(bytes), config.file).text;
   const double spacing_m = config.file_spacing_m > 0.0 ? config.file_spacing_m : kSpacingOfHeights_m;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "asperity/base/problem.h"
 #include "asperity/simulation/surface.h"
 #include "asperity/simulation/surface_config.h"
 
@@ -18,7 +19,8 @@ namespace asperity {
 // A header's names carry units by their ends (_m, _cm, _mm, _um, _nm); without one a profile's heights are in
 // `file_unit_m` and its positions in metres, and a map is as above. A profile loses its mean, a map its least-squares
 // plane. Beyond its border a relief goes on as its mirror image, so that it has no steps. Throws Error naming file,
-// line and value; files over 64 MiB and heights beyond 0.1 m are refused.
-std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config);
+// line and value; files over 64 MiB and heights beyond 0.1 m are refused. A checksum of the file that does not hold is
+// added to `problems` ("checksum").
+std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config, Problems* problems = nullptr);
 
 }  // namespace asperity

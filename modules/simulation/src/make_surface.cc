@@ -107,7 +107,7 @@ class RandomRelief final : public Surface {
 
 }  // namespace
 
-std::unique_ptr<Surface> make_surface(const SimulatedSurfaceConfig& config, std::uint64_t seed) {
+std::unique_ptr<Surface> make_surface(const SimulatedSurfaceConfig& config, std::uint64_t seed, Problems* problems) {
   switch (config.kind) {
     case SurfaceKind::kSine:
       return std::make_unique<Sine>(config.amplitude_m, config.pitch_m);
@@ -119,7 +119,7 @@ std::unique_ptr<Surface> make_surface(const SimulatedSurfaceConfig& config, std:
     case SurfaceKind::kClayPot:
       return std::make_unique<RandomRelief>(config, seed);
     case SurfaceKind::kFile:
-      return load_surface(config);
+      return load_surface(config, problems);
   }
   throw Error("simulation.surface.kind: unknown");
 }

@@ -214,9 +214,10 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
   return simulate_on(on_mesh, surface, base, observer);
 }
 
-Recording simulate_recording(const SimulationConfig& config, const Observer& observer) {
-  const std::unique_ptr<Surface> surface = make_surface(
-      config.surface, static_cast<std::uint64_t>(config.surface.seed != 0 ? config.surface.seed : config.seed));
+Recording simulate_recording(const SimulationConfig& config, const Observer& observer, Problems* problems) {
+  const std::unique_ptr<Surface> surface =
+      make_surface(config.surface,
+                   static_cast<std::uint64_t>(config.surface.seed != 0 ? config.surface.seed : config.seed), problems);
   if (config.shape.kind != BaseShapeKind::kMesh) return simulate_recording(config, *surface, observer);
   return simulate_recording(config, *surface, read_shape_mesh(config.shape, observer), observer);
 }

@@ -14,19 +14,20 @@
 
 namespace asperity {
 
-enum class ExportFormat { kObj, kGltf, kUsda, kPng, kWav, kAhap, kHaps, kHjif, kX3p, kStl };
-inline constexpr std::array<std::string_view, 10> kExportFormatNames{"obj",  "gltf", "usda", "png", "wav",
-                                                                     "ahap", "haps", "hjif", "x3p", "stl"};
+enum class ExportFormat { kObj, kGltf, kUsda, kPng, kWav, kAhap, kHaps, kHjif, kHmpg, kX3p, kStl };
+inline constexpr std::array<std::string_view, 11> kExportFormatNames{"obj",  "gltf", "usda", "png", "wav", "ahap",
+                                                                     "haps", "hjif", "hmpg", "x3p", "stl"};
 
-// HJIF: the steps of a texture's curve, and how deep its line of force over penetration goes.
+// HJIF and HMPG: the steps of a texture's curve, and how deep its line of force over penetration goes.
 struct HapticsConfig {
   int spacing_um = 50;
   double penetration_mm = 1.0;
 
   template <class V>
   void visit(V& v) {
-    v.field("spacing_um", spacing_um, "distance of the keyframes of a texture, for hjif", {1, 65535});
-    v.field("penetration_mm", penetration_mm, "to which the line of stiffness is given, for hjif", {0.001, 65.0});
+    v.field("spacing_um", spacing_um, "distance of the keyframes of a texture, for hjif and hmpg", {1, 65535});
+    v.field("penetration_mm", penetration_mm, "to which the line of stiffness is given, for hjif and hmpg",
+            {0.001, 65.0});
   }
 };
 
@@ -79,6 +80,7 @@ struct ExportResult {
 //   haps  the same for Interhaptics (format_haps.h)
 //   hjif  each texture's heights along its path, its stiffness and friction (format_hjif.h); of a force in time, the
 //         acceleration of one stroke
+//   hmpg  the same in its binary form, amplitudes with 8 bits (format_hmpg.h)
 //   x3p   each texture's heights (ISO 25178-72); of a texture along a line, its profile
 //   stl   each mesh with its textures as relief, for printing (displace_mesh.h), in millimetres
 // Files are named after the meshes and textures. A texture's warning is in its file where the format has a place for

@@ -6,11 +6,6 @@
 
 namespace asperity {
 
-// The positions of an effect's keyframes are at most this far behind the effect: the binary form has 16 bits for them.
-inline constexpr std::int64_t kLongestHapticEffect = 65535;
-// Ticks a second of the profile Main.
-inline constexpr int kHighestHapticTimescale = 48000;
-
 // An experience as HJIF, the interchange format of ISO/IEC 23090-31: profile Main, level 1, or 2 where a perception has
 // more than 128 channels. A channel is one Curve band of type Linear; longer curves are several effects of it, each of
 // which begins where the one before ended. Dates are zeros, so that the same experience gives the same bytes. The

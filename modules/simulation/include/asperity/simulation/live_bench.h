@@ -58,9 +58,9 @@ class LiveBench {
 };
 
 // The scan that a LiveBench plays: simulate_recording without faults, with the exact calibration, camera and tags
-// included, and as tracker.csv what a tracker without error would have made of the frames.
+// included, and as tracker.csv what a tracker without error would have made of the frames. Problems as there.
 Recording simulate_live_recording(const SimulationConfig& simulation, const LiveBenchConfig& live,
-                                  const Observer& observer = {});
+                                  const Observer& observer = {}, Problems* problems = nullptr);
 
 // The same for any recording of the bench without link faults: adds camera, tags and true poses.
 void add_bench_camera(Recording& recording, const LiveBenchConfig& live);

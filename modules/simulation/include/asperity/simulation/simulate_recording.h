@@ -1,5 +1,6 @@
 #pragma once
 
+#include "asperity/base/problem.h"
 #include "asperity/base/progress.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "asperity/recording/recording.h"
@@ -22,7 +23,8 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
                              const Observer& observer = {});
 
 // The same on the surface of `config.surface` (make_surface.h) and, if its kind is that, over the mesh of
-// `config.shape`; both may read a file.
-Recording simulate_recording(const SimulationConfig& config, const Observer& observer = {});
+// `config.shape`; both may read a file. A surface file whose checksum does not hold is a problem ("checksum").
+Recording simulate_recording(const SimulationConfig& config, const Observer& observer = {},
+                             Problems* problems = nullptr);
 
 }  // namespace asperity

@@ -25,6 +25,7 @@ const FORMATS = [
   { value: "ahap", label: "AHAP of a stroke" },
   { value: "haps", label: ".haps of a stroke" },
   { value: "hjif", label: "HJIF (ISO/IEC 23090-31)" },
+  { value: "hmpg", label: "HMPG, the binary form of HJIF" },
   { value: "x3p", label: "X3P heights" },
 ];
 
