@@ -164,6 +164,17 @@ double position_sigma_m(const TipMotion& motion) {
   return std::sqrt(std::max(0.0, median(variance_m2) - motion.sigma_tip_in_marker_m.squaredNorm() / 3.0));
 }
 
+// The furthest of the points from the first, and what lies furthest from that.
+double extent_m(const std::vector<Eigen::Vector3d>& points_m) {
+  const auto furthest = [&](const Eigen::Vector3d& from_m) {
+    return *std::max_element(points_m.begin(), points_m.end(), [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return (a - from_m).squaredNorm() < (b - from_m).squaredNorm();
+    });
+  };
+  const Eigen::Vector3d end_m = furthest(points_m.front());
+  return (furthest(end_m) - end_m).norm();
+}
+
 }  // namespace
 
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
@@ -182,7 +193,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   }
 
   PlaneCandidate plane = fit_plane_candidate(evidence, config);
-  CircleCandidate circle = fit_circle_candidate(evidence, config);
+  CircleCandidate circle = fit_circle_candidate(plane, evidence, config);
   out.shape = choose_shape(plane, circle, evidence, config, out.shape_probability);
 
   out.path.p_world_m.reserve(motion.size());
@@ -211,7 +222,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     out.probe_tilt_deg = kRadian_deg * circle.tilt_rad;
     out.base_rms_m = circle.rms_m;
     // A radius that is off by δ over a chord L turns the normals at its ends by about L/2 · δ/R².
-    const double half_m = 0.5 * (evidence.coarse_m.back() - evidence.coarse_m.front()).norm();
+    const double half_m = 0.5 * extent_m(evidence.coarse_m);
     const double ends_rad = half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
     out.normal_sigma_deg = kRadian_deg * std::hypot(lean.sigma_rad, ends_rad);
   } else if (out.shape == PathShape::kCurve) {

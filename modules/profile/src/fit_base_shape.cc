@@ -263,10 +263,12 @@ void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, cons
 
 }  // namespace
 
-CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
-  std::vector<double> weights;
-  const PlaneFit plane = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
-  const Eigen::Vector3d e1 = plane.axes.col(0), e2 = plane.axes.col(1);
+namespace {
+
+// The circle about the path's principal axis `about`: seen along it, the cylinder's path is a circle.
+CircleCandidate fit_circle_about(const PlaneFit& plane, int about, const PathEvidence& evidence,
+                                 const BasePathConfig& config) {
+  const Eigen::Vector3d e1 = plane.axes.col(about == 0 ? 1 : 0), e2 = plane.axes.col(about == 2 ? 1 : 2);
   std::vector<Eigen::Vector2d> points;
   std::vector<double> point_weights;
   for (std::size_t c = 0; c < evidence.path.size(); ++c) {
@@ -278,12 +280,12 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   const CircleFit fit = fit_circle(points, point_weights);
 
   CircleCandidate out;
-  out.axis = plane.normal();
+  out.axis = plane.axes.col(about);
   out.radius_m = fit.radius_m;
   out.centre_m = plane.centroid_m + fit.centre_m.x() * e1 + fit.centre_m.y() * e2;
   if (!fit.converged || !(fit.radius_m > 0.0)) return out;
   // A nearly straight path has no cylinder to rotate.
-  const double extent_m = std::sqrt(plane.scatter_m2.x());
+  const double extent_m = std::sqrt(plane.scatter_m2[about == 0 ? 1 : 0]);
   if (fit.radius_m < 50.0 * extent_m) {
     refine_cylinder(out, evidence, config);
   } else {
@@ -320,6 +322,29 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   out.radius_stderr_m = fit.radius_stderr_m() * inflation;
   out.significance = 1.0 / (fit.radius_m * fit.curvature_stderr_per_m() * inflation);
   return out;
+}
+
+}  // namespace
+
+CircleCandidate fit_circle_candidate(const PlaneCandidate& plane, const PathEvidence& evidence,
+                                     const BasePathConfig& config) {
+  constexpr double kWide = 3.0;  // slow errors: a path that covers an area
+  constexpr double kRows = 1.5;  // times the path's own extent: it comes back
+  std::vector<double> weights;
+  const PlaneFit fit = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
+  CircleCandidate best = fit_circle_about(fit, 2, evidence, config);
+  const double extent_m = std::sqrt(12.0 * fit.scatter_m2.x());  // of points that are spread evenly
+  if (!(evidence.travelled_m.back() > kRows * extent_m)) return best;
+  if (!(std::sqrt(fit.scatter_m2.y()) > kWide * config.slow_error_m)) return best;
+  double best_odds = circle_log_odds(plane, best, evidence, config);
+  for (const int about : {1, 0}) {
+    const CircleCandidate other = fit_circle_about(fit, about, evidence, config);
+    const double odds = circle_log_odds(plane, other, evidence, config);
+    if (!(odds > best_odds)) continue;
+    best = other;
+    best_odds = odds;
+  }
+  return best;
 }
 
 double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,

@@ -32,7 +32,10 @@ struct CircleCandidate {
 };
 
 PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config);
-CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePathConfig& config);
+// About the axis across the path's principal plane, which is a single stroke's. A raster on a cylinder lies in none: of
+// the three principal axes, the likeliest against `plane`.
+CircleCandidate fit_circle_candidate(const PlaneCandidate& plane, const PathEvidence& evidence,
+                                     const BasePathConfig& config);
 
 // The natural logarithm of the odds for the circle.
 double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,

@@ -121,6 +121,56 @@ TEST(BasePath, APathThatAlsoMovesAlongTheAxisIsOnACylinder) {
   EXPECT_LT(std::acos(std::abs(result.axis_world.z())) / kDegree_rad, 8.0);  // the plane of the path leans by 25
 }
 
+// Rows of 25 mm, half circles between them, around the cylinder or along its axis: the path lies in no plane, and the
+// one that fits it best is off by 0.5 mm.
+TEST(BasePath, ARasterOnACylinderIsRound) {
+  constexpr double kRadius_m = 0.045, kRow_m = 0.025, kTurn_m = 1.25e-3, kSpeed_mps = 0.025;
+  constexpr int kRows = 8;
+  constexpr double kPeriod_m = kRow_m + std::numbers::pi * kTurn_m;
+  for (const bool around : {true, false}) {
+    const auto base = [&](double t) {
+      const double s_m = kSpeed_mps * t;
+      const int row = static_cast<int>(s_m / kPeriod_m);
+      const double in_row_m = s_m - row * kPeriod_m, angle = std::max(0.0, in_row_m - kRow_m) / kTurn_m;
+      const double reach_m = in_row_m < kRow_m ? in_row_m : kRow_m + kTurn_m * std::sin(angle);
+      const double u = (row % 2 == 0 ? reach_m : kRow_m - reach_m) - 0.5 * kRow_m;
+      const double v = 2.0 * kTurn_m * (row - 0.5 * kRows) + kTurn_m * (1.0 - std::cos(angle));
+      const double a = (around ? u : v) / kRadius_m;
+      const Eigen::Vector3d radial(std::cos(a), std::sin(a), 0.0);
+      return Point{kRadius_m * radial + Eigen::Vector3d(0.0, 0.0, around ? v : u), radial, s_m};
+    };
+    const Scan scan = make_scan(base, sine(0.02e-3, 0.8e-3),
+                                {.duration_s = (kRows * kPeriod_m - 0.01) / kSpeed_mps, .slow_sigma_m = 0.05e-3});
+    const BasePathResult result = find_base_path(scan.motion, scan.tip_in_marker_m, {});
+    EXPECT_EQ(result.shape, PathShape::kCircle) << around;
+    EXPECT_NEAR(result.radius_m, kRadius_m, 4.0 * result.radius_stderr_m) << around;
+    EXPECT_LT(result.radius_stderr_m, 5e-3) << around;
+    EXPECT_LT(std::acos(std::min(1.0, std::abs(result.axis_world.z()))) / kDegree_rad, 5.0) << around;
+    expect_length(result, scan, 0.7);
+  }
+}
+
+// The same rows on a plane stay on one.
+TEST(BasePath, ARasterOnAPlaneIsFlat) {
+  constexpr double kRow_m = 0.025, kSpacing_m = 2.5e-3, kSpeed_mps = 0.025;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const auto base = on_plane(
+        [&](double t) {
+          const double s_m = kSpeed_mps * t;
+          const int row = static_cast<int>(s_m / kRow_m);
+          const double in_row_m = s_m - row * kRow_m;
+          // Rows that lean a little, as a zigzag: no gap between them.
+          return Eigen::Vector2d(row % 2 == 0 ? in_row_m : kRow_m - in_row_m, kSpacing_m * s_m / kRow_m);
+        },
+        [&](double t) { return kSpeed_mps * t * std::hypot(1.0, kSpacing_m / kRow_m); });
+    const Scan scan =
+        make_scan(base, sine(0.02e-3, 0.8e-3), {.duration_s = 7.5, .slow_sigma_m = 0.05e-3, .seed = seed});
+    const BasePathResult result = find_base_path(scan.motion, scan.tip_in_marker_m, {});
+    EXPECT_EQ(result.shape, PathShape::kPlane) << seed;
+    EXPECT_LT(worst_angle_deg(result, scan), 2.0) << seed;
+  }
+}
+
 TEST(BasePath, BackAndForthKeepsGrowingAndMarksTheTurns) {
   // 40 mm strokes with a bow, sinusoidal in time: five turns in 6 s.
   const auto x = [](double t) { return 0.02 * (1.0 - std::cos(2.0 * std::numbers::pi * t / 2.4)); };
