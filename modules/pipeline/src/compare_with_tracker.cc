@@ -83,9 +83,10 @@ void compare_positions(const PosePath& path, const TipMotion& motion, const Eige
 struct PathLength {
   double length_m = 0.0;
   double variance_m2 = 0.0;
-  double noise_m = 0.0;    // that noise in the direction adds
-  double resting_m = 0.0;  // from the beginning to the end of each rest
-  double unsure_m = 0.0;   // the speed's sum at rest: in a narrow smoothing noise decides what is rest
+  double noise_m = 0.0;     // that noise in the direction adds
+  double resting_m = 0.0;   // from the beginning to the end of each rest
+  double unsure_m = 0.0;    // the speed's sum at rest: in a narrow smoothing noise decides what is rest
+  double reversed_m = 0.0;  // that the smoothing may hide where the path turns round
 };
 
 // Poses that follow one another in contact, [first, last).
@@ -107,6 +108,26 @@ std::vector<ContactRun> contact_runs(const PosePath& path, const TipMotion& moti
   }
   std::erase_if(out, [](const ContactRun& run) { return run.last - run.first < 3; });
   return out;
+}
+
+// Where a raster turns round within a smoothing's width, the smoothed speed falls, and what is lacking of that before
+// and behind is path that is not seen. All of it, for a tip that does not slow down.
+double hidden_by_reversals_m(const PosePath& path, const ContactRun& run, const SmoothedPoses& direction,
+                             const PoseNoise& noise, double half_width_s) {
+  constexpr double kTurnsRound = 0.5;  // cosine of 60°
+  double out_m = 0.0;
+  std::size_t before = run.first, after = run.first;
+  for (std::size_t i = run.first; i + 1 < run.last; ++i) {
+    while (path.t_s[before] < path.t_s[i] - half_width_s) ++before;
+    while (after + 1 < run.last && path.t_s[after] < path.t_s[i] + half_width_s) ++after;
+    const Eigen::Vector3d &a = direction.v_mps[before], &b = direction.v_mps[after];
+    if (!(a.norm() > kResting_sigmas * direction.v_sigma_mps(before, noise)) ||
+        !(b.norm() > kResting_sigmas * direction.v_sigma_mps(after, noise)) ||
+        !(a.dot(b) < kTurnsRound * a.norm() * b.norm()))
+      continue;
+    out_m += std::max(0.0, 0.5 * (a.norm() + b.norm()) - direction.v_mps[i].norm()) * (path.t_s[i + 1] - path.t_s[i]);
+  }
+  return out_m;
 }
 
 // Σ Δq·u over a run, u from `direction`, q from `position`.
@@ -149,6 +170,8 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
     }
   }
   end_rest(run.last - 1);
+  constexpr double kHidden = 0.5;  // half circles hide about half of what their speed lacks
+  out.reversed_m = kHidden * hidden_by_reversals_m(path, run, direction, noise, half_width_s);
   out.variance_m2 += u_before.cwiseProduct(position.p_sigma_m(run.last - 1, noise)).squaredNorm();
   return out;
 }
@@ -193,6 +216,7 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
       total.noise_m += part.noise_m;
       total.resting_m += part.resting_m;
       total.unsure_m += part.unsure_m;
+      total.reversed_m += part.reversed_m;
     }
     double bent_m2 = std::pow(total.length_m - narrower_m, 2);
     for (const PathLength& one : before) {
@@ -200,9 +224,12 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
       bent_m2 = std::fmax(bent_m2, apart_m * apart_m - one.variance_m2 - std::pow(one.noise_m, 2));
     }
     before.push_back(total);
-    const double stderr_m = std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
-                                      bent_m2 + std::pow(kShapeError * total.length_m, 2));
-    if (std::isfinite(stderr_m) && !(stderr_m >= out.tracker_length_stderr_m)) {
+    const double stderr_m =
+        std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
+                  std::pow(total.reversed_m, 2) + bent_m2 + std::pow(kShapeError * total.length_m, 2));
+    // In a smoothing in which noise lets most of the path seem at rest nothing is measured.
+    const bool measured = std::isfinite(stderr_m) && total.length_m > total.unsure_m;
+    if (measured && !(stderr_m >= out.tracker_length_stderr_m)) {
       out.tracker_length_m = total.length_m;
       out.tracker_length_stderr_m = stderr_m;
       out.smoothing_s = half_width_s;
