@@ -229,5 +229,50 @@ TEST(CompareWithTracker, OfASoftBodyTheTipsPathIsCompared) {
   EXPECT_EQ(after.length_m, before.length_m);
 }
 
+// Rows of 20 mm joined by half circles, from rest to rest. No smoothing of noisy poses sees all of the bends, and what
+// it hides is in its error.
+TEST(CompareWithTracker, TheTurnsOfARasterAreInTheLengthsError) {
+  constexpr int kScans = 20, kRows = 7;
+  constexpr double kRow_m = 0.02, kRadius_m = 0.6e-3, kSpeed_mps = 0.03, kRest_s = 0.5, kNoise_m = 0.45e-3;
+  constexpr double kPeriod_m = kRow_m + std::numbers::pi * kRadius_m;
+  constexpr double kTrue_m = kRows * kPeriod_m - std::numbers::pi * kRadius_m;
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+    Random random(seed, 9);
+    Recording recording;
+    recording.calibration.tip_in_marker_m.setZero();
+    TrajectoryResult trajectory;
+    BasePathResult base;
+    for (int i = 0; i < static_cast<int>(1e3 * (kTrue_m / kSpeed_mps + 2.0 * kRest_s)); ++i) {
+      const double s_m = std::clamp(kSpeed_mps * (1e-3 * i - kRest_s), 0.0, kTrue_m);
+      const int row = std::min(kRows - 1, static_cast<int>(s_m / kPeriod_m));
+      const double in_row_m = s_m - row * kPeriod_m, angle = std::max(0.0, in_row_m - kRow_m) / kRadius_m;
+      const double reach_m = in_row_m < kRow_m ? in_row_m : kRow_m + kRadius_m * std::sin(angle);
+      const double side = row % 2 == 0 ? 1.0 : -1.0;
+      const Eigen::Vector3d p_m(row % 2 == 0 ? reach_m : kRow_m - reach_m,
+                                2.0 * kRadius_m * row + kRadius_m * (1.0 - std::cos(angle)), 0.3);
+      const bool moves = s_m > 0.0 && s_m < kTrue_m;
+      trajectory.motion.t_ns.push_back(i * 1'000'000LL);
+      trajectory.motion.p_world_tip_m.push_back(p_m);
+      trajectory.motion.v_world_tip_mps.emplace_back(moves ? kSpeed_mps * side * std::cos(angle) : 0.0,
+                                                     moves ? kSpeed_mps * std::sin(angle) : 0.0, 0.0);
+      base.path.p_world_m.push_back(p_m);
+      base.path.n_world.emplace_back(0.0, 0.0, 1.0);
+      base.path.s_m.push_back(s_m);
+      base.contact.push_back(1);
+      if (i % 22 != 0) continue;  // 45 Hz
+      const Eigen::Vector3d noise_m(random.normal(), random.normal(), random.normal());
+      recording.tracker.t_ns.push_back(i * 1'000'000LL);
+      recording.tracker.T_world_marker.push_back({Eigen::Quaterniond::Identity(), p_m + kNoise_m * noise_m});
+    }
+    const TrackerComparison c = compare_with_tracker(recording, trajectory, base);
+    EXPECT_NEAR(c.length_m, kTrue_m, 0.1e-3);
+    EXPECT_LT(c.tracker_length_stderr_m, 0.15 * kTrue_m) << seed;
+    squares += std::pow((c.tracker_length_m - kTrue_m) / c.tracker_length_stderr_m, 2);
+  }
+  EXPECT_LT(std::sqrt(squares / kScans), 1.3);
+  std::printf("length's error over its standard error, RMS of %d: %.2f\n", kScans, std::sqrt(squares / kScans));
+}
+
 }  // namespace
 }  // namespace asperity
