@@ -33,13 +33,13 @@ constexpr int kCorners = 25, kWhites = 7, kMotions = 13;  // of the grid
 
 constexpr double kLongestStep_s = 1.5 / kRate_Hz;
 
-struct Run {
+struct RestingRun {
   std::size_t first = 0, last = 0;
 };
 
 // The rests, without their ends.
-std::vector<Run> find_rests(std::span<const double> t_s, std::span<const char> resting) {
-  std::vector<Run> out;
+std::vector<RestingRun> find_rests(std::span<const double> t_s, std::span<const char> resting) {
+  std::vector<RestingRun> out;
   const auto place = [&](double at_s) {
     return static_cast<std::size_t>(std::lower_bound(t_s.begin(), t_s.end(), at_s) - t_s.begin());
   };
@@ -146,10 +146,11 @@ void take_off_force(const HeightErrors& errors, double white_m2ps3, std::vector<
 }
 
 // The bins of all rests in one direction.
-std::vector<Bin> bins_of(std::span<const double> t_s, std::span<const double> force_N, const std::vector<Run>& rests,
-                         const AccelerationAtRest& direction, double white_m2ps3) {
+std::vector<Bin> bins_of(std::span<const double> t_s, std::span<const double> force_N,
+                         const std::vector<RestingRun>& rests, const AccelerationAtRest& direction,
+                         double white_m2ps3) {
   std::vector<Bin> out;
-  for (const Run& rest : rests) {
+  for (const RestingRun& rest : rests) {
     const std::size_t count = rest.last - rest.first;
     const Cells cells =
         cells_of(t_s.subspan(rest.first, count), std::span(direction.accel_mps2).subspan(rest.first, count),
@@ -204,7 +205,7 @@ NoiseAtRest noise_at_rest(std::span<const double> t_s, std::span<const double> f
   for (const AccelerationAtRest& direction : directions) equal = equal && direction.accel_mps2.size() == n;
   if (!equal) throw Error("static noise: times, samples and marks differ in size (" + std::to_string(n) + " times)");
   NoiseAtRest out;
-  const std::vector<Run> rests = find_rests(t_s, resting);
+  const std::vector<RestingRun> rests = find_rests(t_s, resting);
   if (!(white_m2ps3 > 0.0) || rests.empty()) return out;
   std::vector<HeightErrors> still;
   std::vector<std::vector<Bin>> bins;
@@ -242,7 +243,7 @@ NoiseAtRest noise_at_rest(std::span<const double> t_s, std::span<const double> f
     sum += weight * node.corner_Hz;
     square += weight * node.corner_Hz * node.corner_Hz;
   }
-  for (const Run& rest : rests) out.rests_s += t_s[rest.last - 1] - t_s[rest.first];
+  for (const RestingRun& rest : rests) out.rests_s += t_s[rest.last - 1] - t_s[rest.first];
   out.corner_Hz = sum / weights;
   out.corner_sigma_Hz = std::sqrt(std::max(0.0, square / weights - out.corner_Hz * out.corner_Hz));
   return out;
