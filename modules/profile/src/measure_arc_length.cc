@@ -271,7 +271,9 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const bool follows = quiet_Hz > quick_Hz;
   const auto sharp = low_pass(path, follows ? std::min(closer_Hz, quiet_Hz) : closer_Hz);
   std::vector<PathPart> parts = find_bends(slow, quick, moving, cut, reach);
-  mark_reversals(quick, sharp, moving, rest_mps, static_cast<std::size_t>(0.5 / (quick_Hz * path.step_s)), parts);
+  // Where bends below the noise are followed anyway, as over a mesh, a reversal is one of them.
+  if (bend_m > 2.0 * config.noise_m)
+    mark_reversals(quick, sharp, moving, rest_mps, static_cast<std::size_t>(0.5 / (quick_Hz * path.step_s)), parts);
   const CloserDirection closer(sharp, directions.tangent, moving, std::move(parts));
   out.bends_m = closer.added_m();
 
