@@ -9,7 +9,6 @@
 #include "inertial_model.h"
 #include "stream_agreement.h"
 #include "symmetric_products.h"
-#include "transition_sum.h"
 
 namespace asperity::inertial_smoother {
 
@@ -88,15 +87,14 @@ struct Interval {
   std::vector<Noise> noises;
 };
 
-// Runs from the filtered start; sums the transition up where there is none.
-void sum_interval(const Problem& problem, Nominal x, TransitionSum* sum, Interval& interval) {
+// Runs from the filtered start.
+void run_interval(const Problem& problem, Nominal x, Interval& interval) {
   const Mounting mounting = mounting_of(x, problem);
   interval.steps.clear();
   for (std::size_t k = interval.first; k < interval.last; ++k) {
     const Knot& k0 = problem.knots[k];
     const Knot& k1 = problem.knots[k + 1];
     interval.steps.push_back(advance_state(x, k0, k1, mounting, nullptr));
-    if (sum != nullptr) sum->extend(interval.steps.back(), k0, k1, mounting, problem.gyro_turns_too);
   }
 }
 
@@ -202,14 +200,13 @@ void make_room(const Problem& problem, bool path, Smoothed& out) {
 
 Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bool path, const Observer& observer) {
   const int n = problem.layout.size;
-  const std::vector<Record> records = run_forward(problem, true, observer).records;
+  ForwardRecords records(problem, observer);
   const std::size_t epochs = records.size();
 
   Smoothed out;
   make_room(problem, path, out);
-  const Record& checkpoint = records[std::min(problem.checkpoint_epoch, epochs - 1)];
-  out.checkpoint = {checkpoint.x, checkpoint.covariance(n), checkpoint.refused_in_a_row};
-  out.last_sigma = records.back().covariance(n).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const std::size_t checkpoint = std::min(problem.checkpoint_epoch, epochs - 1);
+  out.last_sigma = records.at(epochs - 1).covariance(n).diagonal().cwiseMax(0.0).cwiseSqrt();
 
   Adjoint adjoint{State::Zero(n), Square::Zero(n, n)};  // after the epoch in hand
   Interval interval;
@@ -218,22 +215,21 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
   auto restart = problem.restarts.rbegin();
 
   for (std::size_t e = epochs; e-- > 0;) {
-    const Record& record = records[e];
+    const Record& record = records.at(e);
     const State lambda_end = adjoint.lambda;  // where the interval that begins here ends, before that epoch's pose
     interval.first = problem.epochs[e].knot;
     interval.last = e + 1 < epochs ? problem.epochs[e + 1].knot : interval.first;
     if (restart != problem.restarts.rend() && restart->epoch == e + 1) {
       restart_back(problem, *restart++, adjoint.lambda, adjoint.Lambda, out.score);
     } else if (e + 1 < epochs) {
-      const bool again = record.transition.empty();
-      TransitionSum sum(problem);
-      if (path || again) sum_interval(problem, record.x, again ? &sum : nullptr, interval);
-      const Transition transition = again ? sum.transition() : record.transition.front();
+      if (path) run_interval(problem, record.x, interval);
+      const Transition& transition = record.transition;
       transition.add_score(problem, adjoint.lambda, adjoint.Lambda, out.score);
       transition.propagate_back(problem, transition.rows(problem.layout), adjoint.lambda, adjoint.Lambda);
     }
 
     const Square P = record.covariance(n);
+    if (e == checkpoint) out.checkpoint = {record.x, P, record.refused_in_a_row};
     Nominal smoothed = record.x;
     apply_correction(-(P * adjoint.lambda), problem.layout, smoothed);
     const Knot& knot = problem.knots[interval.first];
