@@ -57,11 +57,13 @@ void ForwardPass::carry(Transition* before) {
   const Problem& problem = *problem_;
   const Mounting mounting = mounting_of(x_, problem);
   TransitionSum sum(problem);
-  for (std::size_t k = problem.epochs[epoch_ - 1].knot; k < problem.epochs[epoch_].knot; ++k) {
-    const Knot& k0 = problem.knots[k];
-    const Knot& k1 = problem.knots[k + 1];
+  const std::size_t first = problem.epochs[epoch_ - 1].knot, last = problem.epochs[epoch_].knot;
+  Knot k0 = problem.knots[first];
+  for (std::size_t k = first; k < last; ++k) {
+    const Knot k1 = problem.knots[k + 1];
     const Step step = advance_state(x_, k0, k1, mounting, nullptr);
     sum.extend(step, k0, k1, mounting, problem.gyro_turns_too);
+    k0 = k1;
   }
   const Transition transition = sum.transition();
   transition.propagate(problem, transition.rows(problem.layout), x_, P_);

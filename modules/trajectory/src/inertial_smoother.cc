@@ -82,6 +82,7 @@ struct Seam {
 struct Interval {
   std::size_t first = 0;  // knots
   std::size_t last = 0;
+  std::vector<Knot> knots;  // from the first to the last
   std::vector<Step> steps;
   std::vector<Nominal> path;
   std::vector<Noise> noises;
@@ -90,19 +91,18 @@ struct Interval {
 // Runs from the filtered start.
 void run_interval(const Problem& problem, Nominal x, Interval& interval) {
   const Mounting mounting = mounting_of(x, problem);
+  interval.knots.clear();
+  for (std::size_t k = interval.first; k <= interval.last; ++k) interval.knots.push_back(problem.knots[k]);
   interval.steps.clear();
-  for (std::size_t k = interval.first; k < interval.last; ++k) {
-    const Knot& k0 = problem.knots[k];
-    const Knot& k1 = problem.knots[k + 1];
-    interval.steps.push_back(advance_state(x, k0, k1, mounting, nullptr));
-  }
+  for (std::size_t k = 0; k + 1 < interval.knots.size(); ++k)
+    interval.steps.push_back(advance_state(x, interval.knots[k], interval.knots[k + 1], mounting, nullptr));
 }
 
 // Inside the interval the smoothed motion is the dead reckoning from its smoothed start with the smoothed noise
 // −Q Gᵀ λ(t) as a further input (Bryson and Frazier's form of the smoother). Writes the samples before `place`.
 void write_interval(const Problem& problem, const State& lambda_end, const Nominal& start, const Nominal& next,
                     Interval& interval, std::size_t& place, Smoothed& out) {
-  const std::size_t first = interval.first;
+  const std::vector<Knot>& knots = interval.knots;
   std::vector<Step>& steps = interval.steps;
   const Vector3d lp = lambda_end.segment<3>(kP);
   Vector3d lv = lambda_end.segment<3>(kV);
@@ -112,8 +112,8 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   const double rate = rate_walk_density(problem), along = fast_density_factor(problem);
   const Mounting mounting = mounting_of(start, problem);
   for (std::size_t k = steps.size(); k-- > 0;) {
-    const Knot& knot = problem.knots[first + k];
-    const double dt = problem.knots[first + k + 1].t - knot.t;
+    const Knot& knot = knots[k];
+    const double dt = knots[k + 1].t - knot.t;
     const Step& step = steps[k];
     Noise& noise = interval.noises[k];
     const Vector3d middle = lv + 0.5 * dt * lp;
@@ -130,16 +130,16 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   interval.path.resize(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     interval.path[k] = x;
-    steps[k] = advance_state(x, problem.knots[first + k], problem.knots[first + k + 1], mounting, &interval.noises[k]);
+    steps[k] = advance_state(x, knots[k], knots[k + 1], mounting, &interval.noises[k]);
   }
   Seam seam;
   seam.p = next.p - x.p;
   seam.v = next.v - x.v;
   seam.phi = log_rotation(next.q * x.q.conjugate());
-  const double t0 = problem.knots[first].t;
-  const double T = problem.knots[interval.last].t - t0;
+  const double t0 = knots.front().t;
+  const double T = knots.back().t - t0;
   for (std::size_t k = steps.size(); k-- > 0;) {
-    const Knot& knot = problem.knots[first + k];
+    const Knot& knot = knots[k];
     if (knot.sample < 0) continue;
     const double share = (knot.t - t0) / T;
     const Nominal& at = interval.path[k];
@@ -178,9 +178,9 @@ void add_residual(const Problem& problem, const Knot& knot, const Nominal& smoot
 }
 
 void make_room(const Problem& problem, bool path, Smoothed& out) {
-  std::size_t samples = 0;
-  for (const Knot& knot : problem.knots) samples += knot.sample >= 0;
   if (path) {
+    std::size_t samples = 0;
+    for (std::size_t k = 0; k < problem.knots.size(); ++k) samples += problem.knots[k].sample >= 0;
     out.sample.resize(samples);
     out.p.resize(samples);
     out.v.resize(samples);
@@ -232,7 +232,7 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
     if (e == checkpoint) out.checkpoint = {record.x, P, record.refused_in_a_row};
     Nominal smoothed = record.x;
     apply_correction(-(P * adjoint.lambda), problem.layout, smoothed);
-    const Knot& knot = problem.knots[interval.first];
+    const Knot knot = problem.knots[interval.first];
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose >= 0) add_residual(problem, knot, smoothed, static_cast<std::size_t>(pose), out);
     if (path) {

@@ -16,7 +16,7 @@ namespace asperity {
 namespace {
 
 using inertial_smoother::Component;
-using inertial_smoother::Knot;
+using inertial_smoother::KnotLine;
 using inertial_smoother::Mounting;
 using inertial_smoother::Nominal;
 using inertial_smoother::State;
@@ -24,6 +24,13 @@ using inertial_smoother::Step;
 using inertial_smoother::TransitionSum;
 using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Vector3d;
+
+// Without the streams that they are made from.
+KnotLine hold(const KnotLine& knots) {
+  KnotLine out;
+  out.append(knots, 0, knots.size());
+  return out;
+}
 
 SmootherProblem make_problem(bool has_gyro) {
   testing_motion::RestingHand hand;
@@ -39,6 +46,7 @@ SmootherProblem make_problem(bool has_gyro) {
   const InertialStream inertial = calibrate_inertial(recording, config.inertial);
   SmootherProblem out =
       inertial_smoother::make_problem(recording, inertial, config, sensors.latency_s, inertial.t_ns.front());
+  out.knots = hold(out.knots);
   out.layout = inertial_smoother::choose_layout(recording.calibration, has_gyro, true, config);
   out.gravity = recording.info.gravity_world_mps2;
   inertial_smoother::set_constants(recording.calibration, has_gyro, config, out);
