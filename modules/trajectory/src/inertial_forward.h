@@ -51,7 +51,7 @@ class ForwardPass {
 // again from where the filter was at its begin: the same arithmetic, hence the same bytes.
 class ForwardRecords {
  public:
-  static constexpr std::size_t kBlockEpochs = 4096;  // 10 kB each
+  static constexpr std::size_t kBlockEpochs = 8192;  // 10 kB each
 
   // Filters all of `problem`, which outlives this object, as do the observer's functions. Throws Cancelled.
   ForwardRecords(const Problem& problem, const Observer& observer, std::size_t block_epochs = kBlockEpochs);
