@@ -316,7 +316,8 @@ void CausalTip::take(Samples& out) {
   append_values(out.motion.q_world_marker, from.q_world_marker);
   append_values(out.motion.v_world_tip_mps, from.v_world_tip_mps);
   append_values(out.motion.a_world_tip_mps2, from.a_world_tip_mps2);
-  append_values(out.motion.cov_world_tip_m2, from.cov_world_tip_m2);
+  out.motion.cov_world_tip_m2.append(from.cov_world_tip_m2);
+  from.cov_world_tip_m2.clear();
   append_values(out.motion.force_N, from.force_N);
   append_values(out.broken, impl_->ready.broken);
   append_values(out.steady_m, impl_->ready.steady_m);

@@ -18,7 +18,7 @@ TipMotion make_tip_motion(const InertialStream& inertial, Smoothed& smoothed, co
   out.q_world_marker = std::move(smoothed.q);
   out.v_world_tip_mps = std::move(smoothed.v);
   out.a_world_tip_mps2 = std::move(smoothed.a);
-  out.cov_world_tip_m2.resize(n);
+  out.cov_world_tip_m2 = CovarianceLine::between(std::move(smoothed.tip_covariance));
   out.force_N.resize(n);
   const auto angular_acceleration = [&](std::size_t i) -> Vector3d {
     // Over ±2 ms: a shorter difference is only the gyroscope's noise.
@@ -50,10 +50,9 @@ TipMotion make_tip_motion(const InertialStream& inertial, Smoothed& smoothed, co
     if (epoch + 1 < smoothed.epoch_t.size()) {
       const double share =
           std::clamp((t - smoothed.epoch_t[epoch]) / (smoothed.epoch_t[epoch + 1] - smoothed.epoch_t[epoch]), 0.0, 1.0);
-      out.cov_world_tip_m2[i] =
-          (1.0 - share) * smoothed.tip_covariance[epoch] + share * smoothed.tip_covariance[epoch + 1];
+      out.cov_world_tip_m2.push_between(epoch, share);
     } else {
-      out.cov_world_tip_m2[i] = smoothed.tip_covariance.back();
+      out.cov_world_tip_m2.push_between(0, 0.0);
     }
   }
   return out;
