@@ -5,10 +5,12 @@
 
 namespace asperity {
 
-CovarianceLine CovarianceLine::between(std::vector<Eigen::Matrix3d> nodes) {
+CovarianceLine CovarianceLine::between(std::vector<Eigen::Matrix3d> nodes, std::size_t samples) {
   CovarianceLine out;
   out.is_between_ = true;
   out.nodes_ = std::move(nodes);
+  out.node_.reserve(samples);
+  out.share_.reserve(samples);
   return out;
 }
 

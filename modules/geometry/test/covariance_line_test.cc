@@ -20,7 +20,7 @@ TEST(CovarianceLine, BetweenNodesItIsTheMatricesThatItStandsFor) {
   for (Matrix3d& node : nodes) {
     for (double& element : node.reshaped()) element = random.normal();
   }
-  CovarianceLine line = CovarianceLine::between(nodes);
+  CovarianceLine line = CovarianceLine::between(nodes, 17);
   EXPECT_TRUE(line.empty());
   std::vector<Matrix3d> each;
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
@@ -48,7 +48,7 @@ TEST(CovarianceLine, BetweenNodesItIsTheMatricesThatItStandsFor) {
 
 TEST(CovarianceLine, AnAppendedLineFollowsTheFirst) {
   CovarianceLine line{Matrix3d::Identity()};
-  CovarianceLine more = CovarianceLine::between({Matrix3d::Zero(), 4.0 * Matrix3d::Identity()});
+  CovarianceLine more = CovarianceLine::between({Matrix3d::Zero(), 4.0 * Matrix3d::Identity()}, 1);
   more.push_between(0, 0.5);
   line.append(more);
   ASSERT_EQ(line.size(), 2u);

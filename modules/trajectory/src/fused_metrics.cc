@@ -32,8 +32,7 @@ double process_noise_scale(const Problem& problem) {
     const Knot next = problem.knots[k + 1];
     const double dt = next.t - knot.t;
     own += dt * knot.accel_psd[0];
-    used += dt * (accel_density(knot, problem) +
-                  fast_density_factor(problem) * knot.accel_fast.head<3>().sum() / 3.0);
+    used += dt * (accel_density(knot, problem) + fast_density_factor(problem) * knot.accel_fast.head<3>().sum() / 3.0);
     knot = next;
   }
   return own > 0.0 ? used / own : 0.0;

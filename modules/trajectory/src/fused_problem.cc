@@ -95,6 +95,7 @@ class StreamKnots : public KnotSource {
     if (sample + 1 < inertial_->size()) set_noise(*inertial_, *config_, sample, out);
     return out;
   }
+  std::int64_t sample(std::size_t k) const override { return from_[k] < 0 ? Knot{}.sample : from_[k]; }
 
  private:
   struct Between {

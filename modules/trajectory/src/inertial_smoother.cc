@@ -180,7 +180,7 @@ void add_residual(const Problem& problem, const Knot& knot, const Nominal& smoot
 void make_room(const Problem& problem, bool path, Smoothed& out) {
   if (path) {
     std::size_t samples = 0;
-    for (std::size_t k = 0; k < problem.knots.size(); ++k) samples += problem.knots[k].sample >= 0;
+    for (std::size_t k = 0; k < problem.knots.size(); ++k) samples += problem.knots.sample(k) >= 0;
     out.sample.resize(samples);
     out.p.resize(samples);
     out.v.resize(samples);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,6 +33,7 @@ class KnotSource {
   virtual ~KnotSource() = default;
   virtual std::size_t size() const = 0;
   virtual Knot knot(std::size_t k) const = 0;
+  virtual std::int64_t sample(std::size_t k) const = 0;  // of that knot
 };
 
 // Knots in order of time: held, or made by a source each time they are asked for.
@@ -42,6 +44,7 @@ class KnotLine {
 
   std::size_t size() const { return source_ ? size_ : held_.size(); }
   Knot operator[](std::size_t k) const { return source_ ? source_->knot(k) : held_[k]; }
+  std::int64_t sample(std::size_t k) const { return source_ ? source_->sample(k) : held_[k].sample; }
   Knot front() const { return (*this)[0]; }
   Knot back() const { return (*this)[size() - 1]; }
 

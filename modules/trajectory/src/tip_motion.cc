@@ -18,7 +18,7 @@ TipMotion make_tip_motion(const InertialStream& inertial, Smoothed& smoothed, co
   out.q_world_marker = std::move(smoothed.q);
   out.v_world_tip_mps = std::move(smoothed.v);
   out.a_world_tip_mps2 = std::move(smoothed.a);
-  out.cov_world_tip_m2 = CovarianceLine::between(std::move(smoothed.tip_covariance));
+  out.cov_world_tip_m2 = CovarianceLine::between(std::move(smoothed.tip_covariance), n);
   out.force_N.resize(n);
   const auto angular_acceleration = [&](std::size_t i) -> Vector3d {
     // Over ±2 ms: a shorter difference is only the gyroscope's noise.

@@ -16,8 +16,8 @@ class CovarianceLine {
  public:
   CovarianceLine() = default;
   CovarianceLine(std::initializer_list<Eigen::Matrix3d> each) : nodes_(each) {}
-  // No samples yet: they come by push_between().
-  static CovarianceLine between(std::vector<Eigen::Matrix3d> nodes);
+  // No samples yet: they come by push_between(), about `samples` of them.
+  static CovarianceLine between(std::vector<Eigen::Matrix3d> nodes, std::size_t samples);
 
   std::size_t size() const { return is_between_ ? node_.size() : nodes_.size(); }
   bool empty() const { return size() == 0; }
