@@ -53,7 +53,7 @@ class ForwardRecords {
  public:
   static constexpr std::size_t kBlockEpochs = 8192;  // 10 kB each
 
-  // Filters all of `problem`, which outlives this object, as do the observer's functions. Throws Cancelled.
+  // Filters all of `problem`, which outlives this object. Throws Cancelled.
   ForwardRecords(const Problem& problem, const Observer& observer, std::size_t block_epochs = kBlockEpochs);
 
   std::size_t size() const { return epochs_; }
