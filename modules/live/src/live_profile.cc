@@ -182,7 +182,7 @@ void LiveProfile::Impl::add(std::size_t i) {
   out.heading_world = direction;
   const Vector3d axis = motion.q_world_marker[i] * Vector3d(-calibration.tip_in_marker_m);
   if (axis.norm() > 0.0) out.probe_axis_world = axis.normalized();
-  const Eigen::Matrix3d& cov = motion.cov_world_tip_m2[i];
+  const Eigen::Matrix3d cov = motion.cov_world_tip_m2[i];
   out.sigma_m = std::sqrt(std::max(0.0, cov.diagonal().maxCoeff()));
   out.speed_mps = speed_mps;
   out.force_N = motion.force_N[i];

@@ -25,7 +25,7 @@ double pose_latency_s(const Recording& recording, const TrajectoryResult& trajec
                                                                            : recording.calibration.tracker.latency_s;
 }
 
-double median_sigma_m(const std::vector<Eigen::Matrix3d>& covariance_m2) {
+double median_sigma_m(const CovarianceLine& covariance_m2) {
   if (covariance_m2.empty()) return 0.0;
   std::vector<double> sigma_m;
   for (const Eigen::Matrix3d& one : covariance_m2) sigma_m.push_back(std::sqrt(std::max(0.0, one.trace() / 3.0)));

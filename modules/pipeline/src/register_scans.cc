@@ -83,7 +83,8 @@ void shift_tip(const Eigen::Vector3d& shift_m, const Eigen::Vector3d& sigma_m, T
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Eigen::Matrix3d R = motion.q_world_marker[i].toRotationMatrix();
     motion.p_world_tip_m[i] += R * shift_m;
-    if (!motion.cov_world_tip_m2.empty()) motion.cov_world_tip_m2[i] += R * gain_m2.asDiagonal() * R.transpose();
+    if (motion.cov_world_tip_m2.empty()) continue;
+    motion.cov_world_tip_m2.set(i, motion.cov_world_tip_m2[i] + R * gain_m2.asDiagonal() * R.transpose());
   }
   motion.sigma_tip_in_marker_m = sigma_m;
 }

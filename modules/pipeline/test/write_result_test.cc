@@ -32,7 +32,7 @@ TEST(WriteResult, TrajectoryColumns) {
             "5,0.1,-0.25,3,1,0,0,0,0,0,0,nan,nan,nan,nan\n"
             "1000000007,1,2,0.0000001,0.5,-0.5,0.5,0.5,0.02,0,-1,nan,nan,nan,nan\n");
   // Variances 9, 4 and 35: their mean is 16, its root 4; of each axis its own.
-  motion.cov_world_tip_m2.assign(2, Eigen::Vector3d(9.0, 4.0, 35.0).asDiagonal());
+  motion.cov_world_tip_m2.assign(2, Eigen::Matrix3d(Eigen::Vector3d(9.0, 4.0, 35.0).asDiagonal()));
   EXPECT_THAT(format_trajectory_csv(motion), ::testing::EndsWith(",-1,4,3,2,5.9160797831\n"));
 }
 

@@ -31,6 +31,9 @@ struct Series {
 Series project_forces(const TipMotion& samples, std::span<const std::int64_t> normal_t_ns,
                       std::span<const Eigen::Vector3d> n_world) {
   Series out;
+  out.t_s.reserve(samples.size());
+  out.a_normal_mps2.reserve(samples.size());
+  out.n_world.reserve(samples.size());
   std::size_t k = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     while (k + 1 < n_world.size() && normal_t_ns[k + 1] <= samples.t_ns[i]) ++k;

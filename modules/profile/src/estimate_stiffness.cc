@@ -140,19 +140,23 @@ void take_base(const BasePath& base, std::span<const char> contact, double cycle
   if (samples.size() < 2) return;
   const Eigen::MatrixXd functions = base_functions(base, samples, cycles_per_m);
   Eigen::VectorXd weight(functions.rows());
-  Eigen::MatrixXd values(functions.rows(), 2);
   for (Eigen::Index r = 0; r < functions.rows(); ++r) {
     const std::size_t i = samples[static_cast<std::size_t>(r)];
+    if (!std::isfinite(height_m[i]) || !std::isfinite(force_N[i])) return;
     weight[r] = i > 0 ? std::max(0.0, base.s_m[i] - base.s_m[i - 1]) : 0.0;
-    values(r, 0) = height_m[i];
-    values(r, 1) = force_N[i];
   }
-  if (!(weight.sum() > 0.0) || !values.allFinite()) return;
+  if (!(weight.sum() > 0.0)) return;
   const Eigen::MatrixXd normal = functions.transpose() * weight.asDiagonal() * functions;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normal);
   // What the path does not show is in no fit: a straight stroke does not turn about itself.
   const double least = kSeen * solver.eigenvalues().maxCoeff();
   const Eigen::VectorXd inverse = solver.eigenvalues().unaryExpr([&](double e) { return e > least ? 1.0 / e : 0.0; });
+  Eigen::MatrixXd values(functions.rows(), 2);
+  for (Eigen::Index r = 0; r < functions.rows(); ++r) {
+    const std::size_t i = samples[static_cast<std::size_t>(r)];
+    values(r, 0) = height_m[i];
+    values(r, 1) = force_N[i];
+  }
   const Eigen::MatrixXd fit = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() *
                               (functions.transpose() * (weight.asDiagonal() * values));
   const Eigen::MatrixXd taken = functions * fit;

@@ -29,7 +29,7 @@ Flat make_flat(const std::vector<double>& t_s, const std::vector<double>& s_m,
     out.motion.t_ns.push_back(static_cast<std::int64_t>(std::llround(t_s[i] * 1e9)));
     out.motion.p_world_tip_m.emplace_back(s_m[i], 0.0, h);
     out.motion.q_world_marker.push_back(Eigen::Quaterniond::Identity());
-    out.motion.cov_world_tip_m2.emplace_back(Eigen::Vector3d(1e-8, 1e-8, 4e-12).asDiagonal());
+    out.motion.cov_world_tip_m2.push_back(Eigen::Matrix3d(Eigen::Vector3d(1e-8, 1e-8, 4e-12).asDiagonal()));
     out.motion.force_N.push_back(i % 5 == 0 ? 1.0 + 10.0 * s_m[i] : NAN);
     out.base.p_world_m.emplace_back(s_m[i], 0.0, 0.0);
     out.base.n_world.push_back(Eigen::Vector3d::UnitZ());

@@ -28,7 +28,7 @@ Known know(const std::function<Point(double)>& path, double seconds) {
     out.base.path.n_world.push_back(out.scan.normal[i]);
     out.base.path.s_m.push_back(out.scan.s_m[i]);
     out.base.contact.push_back(1);
-    out.scan.motion.cov_world_tip_m2.emplace_back(kSigma_m * kSigma_m * Eigen::Matrix3d::Identity());
+    out.scan.motion.cov_world_tip_m2.push_back(kSigma_m * kSigma_m * Eigen::Matrix3d::Identity());
   }
   return out;
 }

@@ -88,7 +88,7 @@ struct CausalTip::Impl {
   void keep_needed();
   InertialStream inertial();
   void configure(bool has_gyro, WindowProblem& problem) const;
-  void collect(const InertialStream& inertial, const Smoothed& smoothed, double final_s);
+  void collect(const InertialStream& inertial, Smoothed& smoothed, double final_s);
 };
 
 // The window's rows in SI units, with the quietest noise of all windows so far.
@@ -174,7 +174,7 @@ void CausalTip::Impl::begin() {
 }
 
 // Takes the window's samples up to `final_s` after its first row: they are final.
-void CausalTip::Impl::collect(const InertialStream& stream, const Smoothed& smoothed, double final_s) {
+void CausalTip::Impl::collect(const InertialStream& stream, Smoothed& smoothed, double final_s) {
   const TipMotion motion = inertial_smoother::make_tip_motion(stream, smoothed, calibration.tip_in_marker_m);
   const std::vector<std::int64_t>& stamps = intake.recording().probe.t_ns;
   const std::int64_t origin_ns = stream.t_ns.front();
@@ -240,7 +240,7 @@ void CausalTip::Impl::step(bool last) {
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
     if (problem.knots[problem.epochs[e].knot].t <= want_s) problem.checkpoint_epoch = e;
   }
-  const Smoothed smoothed = inertial_smoother::smooth_motion(problem, calibration.tip_in_marker_m, true, {});
+  Smoothed smoothed = inertial_smoother::smooth_motion(problem, calibration.tip_in_marker_m, true, {});
   if (!smoothed.last.p.allFinite() || !smoothed.first.p.allFinite() || !smoothed.checkpoint.P.allFinite()) {
     ++restarts;
     forget();
@@ -316,7 +316,8 @@ void CausalTip::take(Samples& out) {
   append_values(out.motion.q_world_marker, from.q_world_marker);
   append_values(out.motion.v_world_tip_mps, from.v_world_tip_mps);
   append_values(out.motion.a_world_tip_mps2, from.a_world_tip_mps2);
-  append_values(out.motion.cov_world_tip_m2, from.cov_world_tip_m2);
+  out.motion.cov_world_tip_m2.append(from.cov_world_tip_m2);
+  from.cov_world_tip_m2.clear();
   append_values(out.motion.force_N, from.force_N);
   append_values(out.broken, impl_->ready.broken);
   append_values(out.steady_m, impl_->ready.steady_m);

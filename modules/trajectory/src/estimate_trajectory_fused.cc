@@ -123,6 +123,23 @@ void append_metrics(const InertialStream& inertial, const SmootherProblem& probl
   metrics["probe_saturated_share"] = static_cast<double>(inertial.saturated) / static_cast<double>(inertial.size());
 }
 
+void require_finite(const Smoothed& smoothed) {
+  bool finite = smoothed.last.lever.allFinite();
+  for (std::size_t i = 0; i < smoothed.p.size(); ++i)
+    finite = finite && smoothed.p[i].allFinite() && smoothed.q[i].coeffs().allFinite();
+  if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");
+}
+
+// Frees what only the smoother needs: of a long recording gigabytes.
+void forget_readings(InertialStream& inertial) {
+  inertial.specific_force_mps2 = {};
+  inertial.angular_rate_radps = {};
+  inertial.accel_sigma_mps2 = {};
+  inertial.gyro_sigma_radps = {};
+  inertial.accel_moving_mps2 = {};
+  inertial.accel_fast_m2ps4 = {};
+}
+
 }  // namespace
 
 TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config,
@@ -133,7 +150,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   }
   const Calibration& calibration = recording.calibration;
   observer.update("calibrate", 0.0);
-  const InertialStream inertial = calibrate_inertial(recording, config.inertial);
+  InertialStream inertial = calibrate_inertial(recording, config.inertial);
   const Layout layout = inertial_smoother::choose_layout(calibration, inertial.has_gyro, true, config);
 
   Estimates estimates = first_estimates(calibration, inertial.has_gyro, config);
@@ -163,15 +180,16 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
       layout.latency >= 0 ? std::pow(calibration.probe_latency_sigma_s / latency_sigma_s(calibration), 2) : 0.0;
   const double probe_latency_s = calibration.probe_latency_s - probe_share * (latency_s - prior_latency_s(calibration));
 
+  require_finite(smoothed);
   TrajectoryResult result;
+  append_metrics(inertial, problem, smoothed, calibration, config, latency_s, probe_latency_s, result);
+  const MotionNoise noise = inertial_smoother::learnt_noise(inertial, problem, smoothed, calibration);
+  problem.knots.clear();  // they are made from the readings
+  forget_readings(inertial);
   result.motion = inertial_smoother::make_tip_motion(inertial, smoothed, calibration.tip_in_marker_m);
   result.motion.sigma_tip_in_marker_m = problem.tip_sigma_m;
-  result.motion.noise = inertial_smoother::learnt_noise(inertial, problem, smoothed, calibration);
-  const bool finite = std::all_of(result.motion.p_world_tip_m.begin(), result.motion.p_world_tip_m.end(),
-                                  [](const Vector3d& p) { return p.allFinite(); });
-  if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");
+  result.motion.noise = noise;
   for (auto& t_ns : result.motion.t_ns) t_ns -= std::llround(probe_latency_s * 1e9);
-  append_metrics(inertial, problem, smoothed, calibration, config, latency_s, probe_latency_s, result);
   return result;
 }
 

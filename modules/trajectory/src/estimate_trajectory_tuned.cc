@@ -141,7 +141,7 @@ TrajectoryResult estimate_trajectory_tuned(const Recording& recording, const The
 
   // From pose to pose; the samples between from the first, corrected by what the second changes.
   Filter filter(tip_m.front(), R_m2);
-  motion.cov_world_tip_m2.resize(motion.size());
+  motion.cov_world_tip_m2.assign(motion.size(), Eigen::Matrix3d::Zero());
   std::size_t sample = 0;
   for (std::size_t k = 0; k + 1 < t_ns.size(); ++k) {
     Filter before = filter;
@@ -161,9 +161,10 @@ TrajectoryResult estimate_trajectory_tuned(const Recording& recording, const The
         variance_m2[i] = now.axes[axis].P(0, 0);
       }
       const Vector3d& v = motion.v_world_tip_mps[sample];
-      motion.cov_world_tip_m2[sample] = variance_m2.asDiagonal();
-      motion.cov_world_tip_m2[sample] += latency2_s2 * v * v.transpose();
-      motion.cov_world_tip_m2[sample] += tip_place_covariance_m2(calibration, motion.q_world_marker[sample]);
+      Eigen::Matrix3d covariance_m2 = variance_m2.asDiagonal();
+      covariance_m2 += latency2_s2 * v * v.transpose();
+      covariance_m2 += tip_place_covariance_m2(calibration, motion.q_world_marker[sample]);
+      motion.cov_world_tip_m2.set(sample, covariance_m2);
     }
     filter = after;
   }

@@ -22,9 +22,8 @@ Problem without_time_line(const Problem& window) {
 StepFilter::StepFilter(const Problem& window) : settings(without_time_line(window)), window_(window) {}
 
 Checkpoint StepFilter::predict(std::size_t e, const Checkpoint& from) {
-  const auto first = window_.knots.begin() + static_cast<std::ptrdiff_t>(window_.epochs[e - 1].knot);
-  const auto last = window_.knots.begin() + static_cast<std::ptrdiff_t>(window_.epochs[e].knot);
-  settings.knots.assign(first, last + 1);
+  settings.knots.clear();
+  settings.knots.append(window_.knots, window_.epochs[e - 1].knot, window_.epochs[e].knot + 1);
   settings.epochs = {{0, -1}, {settings.knots.size() - 1, -1}};
   settings.start = from.x;
   settings.start_covariance = from.P;
@@ -33,7 +32,8 @@ Checkpoint StepFilter::predict(std::size_t e, const Checkpoint& from) {
 }
 
 Filtered StepFilter::update(std::size_t e, const Checkpoint& before) {
-  settings.knots.assign(1, window_.knots[window_.epochs[e].knot]);
+  settings.knots.clear();
+  settings.knots.push_back(window_.knots[window_.epochs[e].knot]);
   settings.epochs = {{0, window_.epochs[e].pose}};
   settings.start = before.x;
   settings.start_covariance = before.P;
@@ -58,7 +58,7 @@ std::vector<PointState> dead_reckon(const Problem& window, std::size_t e, const 
   Nominal x = begin;
   const Mounting mounting = mounting_of(x, window);
   for (std::size_t k = window.epochs[e - 1].knot; k < window.epochs[e].knot; ++k) {
-    const Knot& knot = window.knots[k + 1];
+    const Knot knot = window.knots[k + 1];
     advance_state(x, window.knots[k], knot, mounting, {});
     if (knot.sample < 0) continue;
     PointState& state = out.emplace_back();
@@ -86,7 +86,7 @@ void CausalMotion::append(const CausalFeed& feed, std::size_t e, const std::vect
   const double T = window.knots[window.epochs[e].knot].t - t0;
   std::size_t i = 0;
   for (std::size_t k = window.epochs[e - 1].knot + 1; k <= window.epochs[e].knot; ++k) {
-    const Knot& knot = window.knots[k];
+    const Knot knot = window.knots[k];
     if (knot.sample < 0) continue;
     const PointState& state = states[i++];
     const double t_s = static_cast<double>(feed.origin_ns()) * 1e-9 + knot.t;

@@ -27,11 +27,13 @@ double median_norm(const std::vector<Vector3d>& residuals, const Problem& proble
 // The acceleration's noise in use over the sensors' own, mean power over time.
 double process_noise_scale(const Problem& problem) {
   double own = 0.0, used = 0.0;
+  Knot knot = problem.knots.front();
   for (std::size_t k = 0; k + 1 < problem.knots.size(); ++k) {
-    const double dt = problem.knots[k + 1].t - problem.knots[k].t;
-    own += dt * problem.knots[k].accel_psd[0];
-    used += dt * (accel_density(problem.knots[k], problem) +
-                  fast_density_factor(problem) * problem.knots[k].accel_fast.head<3>().sum() / 3.0);
+    const Knot next = problem.knots[k + 1];
+    const double dt = next.t - knot.t;
+    own += dt * knot.accel_psd[0];
+    used += dt * (accel_density(knot, problem) + fast_density_factor(problem) * knot.accel_fast.head<3>().sum() / 3.0);
+    knot = next;
   }
   return own > 0.0 ? used / own : 0.0;
 }

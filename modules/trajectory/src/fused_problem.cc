@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include <Eigen/SVD>
@@ -67,6 +68,49 @@ Knot between_samples(const InertialStream& inertial, const FusedConfig& config, 
   return knot;
 }
 
+namespace {
+
+// The probe's samples, and instants between them.
+class StreamKnots : public KnotSource {
+ public:
+  StreamKnots(const InertialStream& inertial, const FusedConfig& config, std::int64_t origin_ns)
+      : inertial_(&inertial), config_(&config), origin_ns_(origin_ns) {
+    from_.reserve(inertial.size());
+  }
+
+  void add_sample(std::size_t sample) { from_.push_back(static_cast<std::int32_t>(sample)); }
+  void add_between(std::size_t after, double t_s) {
+    from_.push_back(-1 - static_cast<std::int32_t>(between_.size()));
+    between_.push_back({after, t_s});
+  }
+
+  std::size_t size() const override { return from_.size(); }
+  Knot knot(std::size_t k) const override {
+    if (from_[k] < 0) {
+      const Between& at = between_[static_cast<std::size_t>(-1 - from_[k])];
+      return between_samples(*inertial_, *config_, at.after, at.t_s, origin_ns_);
+    }
+    const auto sample = static_cast<std::size_t>(from_[k]);
+    Knot out = at_sample(*inertial_, sample, origin_ns_);
+    if (sample + 1 < inertial_->size()) set_noise(*inertial_, *config_, sample, out);
+    return out;
+  }
+  std::int64_t sample(std::size_t k) const override { return from_[k] < 0 ? Knot{}.sample : from_[k]; }
+
+ private:
+  struct Between {
+    std::size_t after = 0;  // the sample after it
+    double t_s = 0.0;
+  };
+  const InertialStream* inertial_;
+  const FusedConfig* config_;
+  std::int64_t origin_ns_;
+  std::vector<std::int32_t> from_;  // each knot's sample; -1 - i: the instant i between two
+  std::vector<Between> between_;
+};
+
+}  // namespace
+
 Problem make_problem(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
                      double latency_s, std::int64_t origin_ns) {
   const TrackerStream& tracker = recording.tracker;
@@ -101,33 +145,28 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
   if (next_sample + 1 < inertial.size() && seconds(inertial.t_ns[next_sample], origin_ns) < pose_t[first_pose]) {
     ++next_sample;
   }
-  problem.knots.reserve(inertial.size() + 2 * inside);
+  auto knots = std::make_shared<StreamKnots>(inertial, config, origin_ns);
   double last_epoch_t = pose_t[first_pose];
-  const auto add_epoch = [&](std::int64_t pose) {
-    problem.epochs.push_back({problem.knots.size() - 1, pose});
-    last_epoch_t = problem.knots.back().t;
+  const auto add_epoch = [&](std::int64_t pose, double t) {
+    problem.epochs.push_back({knots->size() - 1, pose});
+    last_epoch_t = t;
   };
   for (std::size_t i = first_pose; i < last_pose; ++i) {
     // Probe samples strictly before the pose, then the pose itself.
-    while (next_sample < inertial.size() && seconds(inertial.t_ns[next_sample], origin_ns) < pose_t[i]) {
-      Knot knot = at_sample(inertial, next_sample, origin_ns);
-      if (next_sample + 1 < inertial.size()) set_noise(inertial, config, next_sample, knot);
-      problem.knots.push_back(knot);
-      if (knot.t - last_epoch_t > kLongestInterval_s) add_epoch(-1);
-      ++next_sample;
+    for (; next_sample < inertial.size(); ++next_sample) {
+      const double t = seconds(inertial.t_ns[next_sample], origin_ns);
+      if (!(t < pose_t[i])) break;
+      knots->add_sample(next_sample);
+      if (t - last_epoch_t > kLongestInterval_s) add_epoch(-1, t);
     }
-    Knot knot;
     if (next_sample < inertial.size() && seconds(inertial.t_ns[next_sample], origin_ns) == pose_t[i]) {
-      knot = at_sample(inertial, next_sample, origin_ns);
-      if (next_sample + 1 < inertial.size()) set_noise(inertial, config, next_sample, knot);
-      ++next_sample;
+      knots->add_sample(next_sample++);
     } else {
-      const std::size_t after = std::clamp<std::size_t>(next_sample, 1, inertial.size() - 1);
-      knot = between_samples(inertial, config, after, pose_t[i], origin_ns);
+      knots->add_between(std::clamp<std::size_t>(next_sample, 1, inertial.size() - 1), pose_t[i]);
     }
-    problem.knots.push_back(knot);
-    add_epoch(static_cast<std::int64_t>(i));
+    add_epoch(static_cast<std::int64_t>(i), pose_t[i]);
   }
+  problem.knots = KnotLine(std::move(knots));
   return problem;
 }
 
@@ -223,7 +262,7 @@ Problem first_stretch(const Problem& problem, double length_s) {
   const auto last = std::find_if(out.epochs.begin(), out.epochs.end(),
                                  [&](const Epoch& e) { return out.knots[e.knot].t > begin + length_s; });
   out.epochs.erase(last, out.epochs.end());
-  out.knots.resize(out.epochs.back().knot + 1);
+  out.knots.shorten(out.epochs.back().knot + 1);
   return out;
 }
 
@@ -232,7 +271,7 @@ void choose_mounting(Problem& problem, bool has_gyro) {
   constexpr int kTurns = 12;
   Problem trial = first_stretch(problem, kStretch_s);
   Vector3d mean_force = Vector3d::Zero();
-  for (const Knot& knot : trial.knots) mean_force += knot.f;
+  for (std::size_t k = 0; k < trial.knots.size(); ++k) mean_force += trial.knots[k].f;
   const Eigen::Quaterniond guess = problem.start.misalignment;
   const Vector3d axis_marker = (guess * mean_force).normalized();
   double best = -std::numeric_limits<double>::infinity();

@@ -9,7 +9,8 @@ namespace asperity::inertial_smoother {
 
 // Lays the probe's samples and the tracker's poses, their time moved by `latency_s`, on one time line,
 // keeping poses inside the probe's span. Times are seconds after `origin_ns`. Throws Error if fewer
-// than four poses remain.
+// than four poses remain. The knots are made from `inertial` and `config` when they are asked for: both outlive the
+// problem and its copies, and are not changed meanwhile.
 Problem make_problem(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
                      double latency_s, std::int64_t origin_ns);
 

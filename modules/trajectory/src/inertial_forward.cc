@@ -28,107 +28,135 @@ void Record::keep(const Square& covariance) {
   }
 }
 
-namespace {
+ForwardPass::ForwardPass(const Problem& problem)
+    : problem_(&problem),
+      x_(problem.start),
+      P_(start_covariance(problem)),
+      refused_in_a_row_(problem.refused_in_a_row) {}
 
-// Beyond, some minutes, the smoother sums them up again: 3 kB each.
-constexpr std::size_t kMostTransitions = 20'000;
-
-}  // namespace
-
-Forward run_forward(const Problem& problem, bool keep, const Observer& observer) {
-  const Layout& layout = problem.layout;
-  Forward out;
-  if (keep) out.records.resize(problem.epochs.size());
-  Nominal x = problem.start;
-  Square P = start_covariance(problem);
-  int refused_in_a_row = problem.refused_in_a_row;
-  const bool keep_transitions = keep && problem.epochs.size() <= kMostTransitions;
-  auto restart = problem.restarts.begin();
-  for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
-    if (restart != problem.restarts.end() && restart->epoch == e) {
-      restart_motion(problem, *restart++, x, P);
-      refused_in_a_row = 0;
-    } else if (e > 0) {
-      const Mounting mounting = mounting_of(x, problem);
-      TransitionSum sum(problem);
-      for (std::size_t k = problem.epochs[e - 1].knot; k < problem.epochs[e].knot; ++k) {
-        const Knot& k0 = problem.knots[k];
-        const Knot& k1 = problem.knots[k + 1];
-        const Step step = advance_state(x, k0, k1, mounting, nullptr);
-        sum.extend(step, k0, k1, mounting, problem.gyro_turns_too);
-      }
-      const Transition transition = sum.transition();
-      transition.propagate(problem, transition.rows(layout), x, P);
-      if (keep_transitions) out.records[e - 1].transition.assign(1, transition);
-    }
-    const std::int64_t pose = problem.epochs[e].pose;
-    if (pose >= 0) {
-      const auto i = static_cast<std::size_t>(pose);
-      const Vector3d omega = mounting_of(x, problem).gyro * problem.knots[problem.epochs[e].knot].w - x.bg;
-      const Predicted predicted = predict_pose(x, omega, problem.poses[i]);
-      const Jacobian HP = predicted.times(P, layout);
-      Matrix6d S = predicted.times(HP.transpose(), layout);
-      const MeasurementNoise noise = measurement_noise(problem, i, predicted.rate);
-      double wp = problem.position_weight[i];
-      double wr = problem.rotation_weight[i];
-      const Vector6d& y = predicted.residual;
-      const bool by_innovation = problem.gate_innovations || wp == 0.0;
-      if (by_innovation) {
-        const Matrix6d trial = S + noise.covariance(1.0, 1.0);
-        const Vector3d yp = y.head<3>();
-        const Vector3d yr = y.tail<3>();
-        wp = redescending(yp.dot(trial.topLeftCorner<3, 3>().ldlt().solve(yp)), problem.gate_chi2);
-        wr = redescending(yr.dot(trial.bottomRightCorner<3, 3>().ldlt().solve(yr)), problem.gate_chi2);
-        // A filter that refuses everything is itself wrong: after a dozen poses it listens again.
-        refused_in_a_row = wp < 0.05 || wr < 0.05 ? refused_in_a_row + 1 : 0;
-        if (refused_in_a_row > 12) wp = wr = 1.0, refused_in_a_row = 0;
-      }
-      // A pose with a wrong orientation seldom has the right position.
-      wp = std::min(wp, std::sqrt(wr));
-      const Matrix6d N = noise.covariance(wp, wr);
-      S += N;
-      const Eigen::LLT<Matrix6d> factor(S);
-      const Matrix6d S_inverse = factor.solve(Matrix6d::Identity());
-      const double d2 = y.dot(S_inverse * y);
-      const Vector6d diagonal = factor.matrixL().toDenseMatrix().diagonal();
-      const bool believed = wp > 0.5 && wr > 0.5;
-      // Down-weighted poses are left out of the likelihood: their share would reward a bad model.
-      if (believed) {
-        out.log_likelihood -= 0.5 * std::min(d2, 2.0 * problem.gate_chi2) + diagonal.array().log().sum();
-      } else if (by_innovation) {
-        out.log_likelihood -= problem.gate_chi2 + diagonal.array().log().sum();
-      }
-      apply_correction(HP.transpose().lazyProduct(Vector6d(S_inverse * y)), layout, x);
-      const Matrix6d root = factor.matrixL().solve(Matrix6d::Identity());
-      Jacobian half(6, HP.cols());
-      for (Eigen::Index c = 0; c < HP.cols(); ++c) half.col(c) = root * HP.col(c);
-      add_transposed_product<6>(-1.0, half, half, P);
-      if (keep) {
-        Record& record = out.records[e];
-        record.predicted = predicted;
-        record.S_inverse = S_inverse;
-        record.N_inverse = N.llt().solve(Matrix6d::Identity());
-        record.updated = true;
-        record.believed = believed;
-      }
-    }
-    if (keep) {
-      Record& record = out.records[e];
-      record.x = x;
-      record.keep(P);
-      record.refused_in_a_row = refused_in_a_row;
-      if (e % 256 == 0) observer.update("filter", static_cast<double>(e) / static_cast<double>(problem.epochs.size()));
-    }
+void ForwardPass::step(Transition* before, Record* here) {
+  const Problem& problem = *problem_;
+  if (restart_ < problem.restarts.size() && problem.restarts[restart_].epoch == epoch_) {
+    restart_motion(problem, problem.restarts[restart_++], x_, P_);
+    refused_in_a_row_ = 0;
+  } else if (epoch_ > 0) {
+    carry(before);
   }
-  out.last = {x, P, refused_in_a_row};
-  return out;
+  if (here != nullptr) here->updated = here->believed = false;
+  const std::int64_t pose = problem.epochs[epoch_].pose;
+  if (pose >= 0) correct(static_cast<std::size_t>(pose), here);
+  if (here != nullptr) {
+    here->x = x_;
+    here->keep(P_);
+    here->refused_in_a_row = refused_in_a_row_;
+  }
+  ++epoch_;
 }
 
-double log_likelihood(const Problem& problem) { return run_forward(problem, false, {}).log_likelihood; }
+void ForwardPass::carry(Transition* before) {
+  const Problem& problem = *problem_;
+  const Mounting mounting = mounting_of(x_, problem);
+  TransitionSum sum(problem);
+  const std::size_t first = problem.epochs[epoch_ - 1].knot, last = problem.epochs[epoch_].knot;
+  Knot k0 = problem.knots[first];
+  for (std::size_t k = first; k < last; ++k) {
+    const Knot k1 = problem.knots[k + 1];
+    const Step step = advance_state(x_, k0, k1, mounting, nullptr);
+    sum.extend(step, k0, k1, mounting, problem.gyro_turns_too);
+    k0 = k1;
+  }
+  const Transition transition = sum.transition();
+  transition.propagate(problem, transition.rows(problem.layout), x_, P_);
+  if (before != nullptr) *before = transition;
+}
+
+void ForwardPass::correct(std::size_t i, Record* here) {
+  const Problem& problem = *problem_;
+  const Layout& layout = problem.layout;
+  const Vector3d omega = mounting_of(x_, problem).gyro * problem.knots[problem.epochs[epoch_].knot].w - x_.bg;
+  const Predicted predicted = predict_pose(x_, omega, problem.poses[i]);
+  const Jacobian HP = predicted.times(P_, layout);
+  Matrix6d S = predicted.times(HP.transpose(), layout);
+  const MeasurementNoise noise = measurement_noise(problem, i, predicted.rate);
+  double wp = problem.position_weight[i];
+  double wr = problem.rotation_weight[i];
+  const Vector6d& y = predicted.residual;
+  const bool by_innovation = problem.gate_innovations || wp == 0.0;
+  if (by_innovation) {
+    const Matrix6d trial = S + noise.covariance(1.0, 1.0);
+    const Vector3d yp = y.head<3>();
+    const Vector3d yr = y.tail<3>();
+    wp = redescending(yp.dot(trial.topLeftCorner<3, 3>().ldlt().solve(yp)), problem.gate_chi2);
+    wr = redescending(yr.dot(trial.bottomRightCorner<3, 3>().ldlt().solve(yr)), problem.gate_chi2);
+    // A filter that refuses everything is itself wrong: after a dozen poses it listens again.
+    refused_in_a_row_ = wp < 0.05 || wr < 0.05 ? refused_in_a_row_ + 1 : 0;
+    if (refused_in_a_row_ > 12) wp = wr = 1.0, refused_in_a_row_ = 0;
+  }
+  // A pose with a wrong orientation seldom has the right position.
+  wp = std::min(wp, std::sqrt(wr));
+  const Matrix6d N = noise.covariance(wp, wr);
+  S += N;
+  const Eigen::LLT<Matrix6d> factor(S);
+  const Matrix6d S_inverse = factor.solve(Matrix6d::Identity());
+  const double d2 = y.dot(S_inverse * y);
+  const Vector6d diagonal = factor.matrixL().toDenseMatrix().diagonal();
+  const bool believed = wp > 0.5 && wr > 0.5;
+  // Down-weighted poses are left out of the likelihood: their share would reward a bad model.
+  if (believed) {
+    log_likelihood_ -= 0.5 * std::min(d2, 2.0 * problem.gate_chi2) + diagonal.array().log().sum();
+  } else if (by_innovation) {
+    log_likelihood_ -= problem.gate_chi2 + diagonal.array().log().sum();
+  }
+  apply_correction(HP.transpose().lazyProduct(Vector6d(S_inverse * y)), layout, x_);
+  const Matrix6d root = factor.matrixL().solve(Matrix6d::Identity());
+  Jacobian half(6, HP.cols());
+  for (Eigen::Index c = 0; c < HP.cols(); ++c) half.col(c) = root * HP.col(c);
+  add_transposed_product<6>(-1.0, half, half, P_);
+  if (here == nullptr) return;
+  here->predicted = predicted;
+  here->S_inverse = S_inverse;
+  here->N_inverse = N.llt().solve(Matrix6d::Identity());
+  here->updated = true;
+  here->believed = believed;
+}
+
+ForwardRecords::ForwardRecords(const Problem& problem, const Observer& observer, std::size_t block_epochs)
+    : observer_(observer.without_progress()), epochs_(problem.epochs.size()), block_epochs_(block_epochs) {
+  records_.resize(std::min(block_epochs_, epochs_));
+  ForwardPass pass(problem);
+  for (std::size_t block = 0; block * block_epochs_ < epochs_; ++block) {
+    begins_.push_back(pass);
+    fill(pass, block, observer);
+  }
+}
+
+void ForwardRecords::fill(ForwardPass& pass, std::size_t block, const Observer& observer) {
+  const std::size_t first = block * block_epochs_, last = std::min(first + block_epochs_, epochs_);
+  block_ = block;
+  for (std::size_t e = first; e < last; ++e) {
+    Record& record = records_[e - first];
+    pass.step(e > first ? &records_[e - first - 1].transition : nullptr, &record);
+    if (e % 256 == 0) observer.update("filter", static_cast<double>(e) / static_cast<double>(epochs_));
+  }
+  // The transition out of the block, by a step into the next one.
+  if (last < epochs_) ForwardPass(pass).step(&records_[last - first - 1].transition, nullptr);
+}
+
+const Record& ForwardRecords::at(std::size_t epoch) {
+  const std::size_t block = epoch / block_epochs_;
+  if (block != block_) {
+    ForwardPass pass = begins_[block];
+    fill(pass, block, observer_);
+  }
+  return records_[epoch - block * block_epochs_];
+}
+
+double log_likelihood(const Problem& problem) { return filter_motion(problem).log_likelihood; }
 
 Filtered filter_motion(const Problem& problem) {
-  const Forward forward = run_forward(problem, false, {});
-  return {forward.log_likelihood, forward.last};
+  ForwardPass pass(problem);
+  for (std::size_t e = 0; e < problem.epochs.size(); ++e) pass.step(nullptr, nullptr);
+  return {pass.log_likelihood(), pass.state()};
 }
 
 }  // namespace asperity::inertial_smoother

@@ -9,7 +9,6 @@
 #include "inertial_model.h"
 #include "stream_agreement.h"
 #include "symmetric_products.h"
-#include "transition_sum.h"
 
 namespace asperity::inertial_smoother {
 
@@ -83,28 +82,27 @@ struct Seam {
 struct Interval {
   std::size_t first = 0;  // knots
   std::size_t last = 0;
+  std::vector<Knot> knots;  // from the first to the last
   std::vector<Step> steps;
   std::vector<Nominal> path;
   std::vector<Noise> noises;
 };
 
-// Runs from the filtered start; sums the transition up where there is none.
-void sum_interval(const Problem& problem, Nominal x, TransitionSum* sum, Interval& interval) {
+// Runs from the filtered start.
+void run_interval(const Problem& problem, Nominal x, Interval& interval) {
   const Mounting mounting = mounting_of(x, problem);
+  interval.knots.clear();
+  for (std::size_t k = interval.first; k <= interval.last; ++k) interval.knots.push_back(problem.knots[k]);
   interval.steps.clear();
-  for (std::size_t k = interval.first; k < interval.last; ++k) {
-    const Knot& k0 = problem.knots[k];
-    const Knot& k1 = problem.knots[k + 1];
-    interval.steps.push_back(advance_state(x, k0, k1, mounting, nullptr));
-    if (sum != nullptr) sum->extend(interval.steps.back(), k0, k1, mounting, problem.gyro_turns_too);
-  }
+  for (std::size_t k = 0; k + 1 < interval.knots.size(); ++k)
+    interval.steps.push_back(advance_state(x, interval.knots[k], interval.knots[k + 1], mounting, nullptr));
 }
 
 // Inside the interval the smoothed motion is the dead reckoning from its smoothed start with the smoothed noise
 // −Q Gᵀ λ(t) as a further input (Bryson and Frazier's form of the smoother). Writes the samples before `place`.
 void write_interval(const Problem& problem, const State& lambda_end, const Nominal& start, const Nominal& next,
                     Interval& interval, std::size_t& place, Smoothed& out) {
-  const std::size_t first = interval.first;
+  const std::vector<Knot>& knots = interval.knots;
   std::vector<Step>& steps = interval.steps;
   const Vector3d lp = lambda_end.segment<3>(kP);
   Vector3d lv = lambda_end.segment<3>(kV);
@@ -114,8 +112,8 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   const double rate = rate_walk_density(problem), along = fast_density_factor(problem);
   const Mounting mounting = mounting_of(start, problem);
   for (std::size_t k = steps.size(); k-- > 0;) {
-    const Knot& knot = problem.knots[first + k];
-    const double dt = problem.knots[first + k + 1].t - knot.t;
+    const Knot& knot = knots[k];
+    const double dt = knots[k + 1].t - knot.t;
     const Step& step = steps[k];
     Noise& noise = interval.noises[k];
     const Vector3d middle = lv + 0.5 * dt * lp;
@@ -132,16 +130,16 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   interval.path.resize(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     interval.path[k] = x;
-    steps[k] = advance_state(x, problem.knots[first + k], problem.knots[first + k + 1], mounting, &interval.noises[k]);
+    steps[k] = advance_state(x, knots[k], knots[k + 1], mounting, &interval.noises[k]);
   }
   Seam seam;
   seam.p = next.p - x.p;
   seam.v = next.v - x.v;
   seam.phi = log_rotation(next.q * x.q.conjugate());
-  const double t0 = problem.knots[first].t;
-  const double T = problem.knots[interval.last].t - t0;
+  const double t0 = knots.front().t;
+  const double T = knots.back().t - t0;
   for (std::size_t k = steps.size(); k-- > 0;) {
-    const Knot& knot = problem.knots[first + k];
+    const Knot& knot = knots[k];
     if (knot.sample < 0) continue;
     const double share = (knot.t - t0) / T;
     const Nominal& at = interval.path[k];
@@ -180,9 +178,9 @@ void add_residual(const Problem& problem, const Knot& knot, const Nominal& smoot
 }
 
 void make_room(const Problem& problem, bool path, Smoothed& out) {
-  std::size_t samples = 0;
-  for (const Knot& knot : problem.knots) samples += knot.sample >= 0;
   if (path) {
+    std::size_t samples = 0;
+    for (std::size_t k = 0; k < problem.knots.size(); ++k) samples += problem.knots.sample(k) >= 0;
     out.sample.resize(samples);
     out.p.resize(samples);
     out.v.resize(samples);
@@ -202,14 +200,13 @@ void make_room(const Problem& problem, bool path, Smoothed& out) {
 
 Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bool path, const Observer& observer) {
   const int n = problem.layout.size;
-  const std::vector<Record> records = run_forward(problem, true, observer).records;
+  ForwardRecords records(problem, observer);
   const std::size_t epochs = records.size();
 
   Smoothed out;
   make_room(problem, path, out);
-  const Record& checkpoint = records[std::min(problem.checkpoint_epoch, epochs - 1)];
-  out.checkpoint = {checkpoint.x, checkpoint.covariance(n), checkpoint.refused_in_a_row};
-  out.last_sigma = records.back().covariance(n).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const std::size_t checkpoint = std::min(problem.checkpoint_epoch, epochs - 1);
+  out.last_sigma = records.at(epochs - 1).covariance(n).diagonal().cwiseMax(0.0).cwiseSqrt();
 
   Adjoint adjoint{State::Zero(n), Square::Zero(n, n)};  // after the epoch in hand
   Interval interval;
@@ -218,25 +215,24 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
   auto restart = problem.restarts.rbegin();
 
   for (std::size_t e = epochs; e-- > 0;) {
-    const Record& record = records[e];
+    const Record& record = records.at(e);
     const State lambda_end = adjoint.lambda;  // where the interval that begins here ends, before that epoch's pose
     interval.first = problem.epochs[e].knot;
     interval.last = e + 1 < epochs ? problem.epochs[e + 1].knot : interval.first;
     if (restart != problem.restarts.rend() && restart->epoch == e + 1) {
       restart_back(problem, *restart++, adjoint.lambda, adjoint.Lambda, out.score);
     } else if (e + 1 < epochs) {
-      const bool again = record.transition.empty();
-      TransitionSum sum(problem);
-      if (path || again) sum_interval(problem, record.x, again ? &sum : nullptr, interval);
-      const Transition transition = again ? sum.transition() : record.transition.front();
+      if (path) run_interval(problem, record.x, interval);
+      const Transition& transition = record.transition;
       transition.add_score(problem, adjoint.lambda, adjoint.Lambda, out.score);
       transition.propagate_back(problem, transition.rows(problem.layout), adjoint.lambda, adjoint.Lambda);
     }
 
     const Square P = record.covariance(n);
+    if (e == checkpoint) out.checkpoint = {record.x, P, record.refused_in_a_row};
     Nominal smoothed = record.x;
     apply_correction(-(P * adjoint.lambda), problem.layout, smoothed);
-    const Knot& knot = problem.knots[interval.first];
+    const Knot knot = problem.knots[interval.first];
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose >= 0) add_residual(problem, knot, smoothed, static_cast<std::size_t>(pose), out);
     if (path) {

@@ -9,6 +9,7 @@
 
 #include "asperity/base/progress.h"
 #include "asperity/geometry/pose.h"
+#include "knot_line.h"
 #include "noise_components.h"
 
 namespace asperity::inertial_smoother {
@@ -45,19 +46,6 @@ struct Nominal {
   Eigen::Matrix3d gyro_matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 6, 1> slow = Eigen::Matrix<double, 6, 1>::Zero();
-};
-
-// One instant: a probe sample or the time of a tracker pose. Inputs hold there and are linear between.
-// Densities are of the segment that begins here, before the components' factors.
-struct Knot {
-  double t = 0.0;  // s
-  Eigen::Vector3d f = Eigen::Vector3d::Zero();
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();
-  std::array<double, 3> accel_psd{};  // own, motion, jitter; (m/s²)²/Hz
-  // Of kAccelFast, sensor axes: the elements xx, yy, zz, xy, xz, yz.
-  Eigen::Matrix<float, 6, 1> accel_fast = Eigen::Matrix<float, 6, 1>::Zero();
-  std::array<double, 2> gyro_psd{};  // own, motion; (rad/s)²/Hz
-  std::int64_t sample = -1;
 };
 
 // An epoch ends an interval of knots; most bring a pose, some only keep intervals short.
@@ -113,7 +101,7 @@ struct Checkpoint {
 
 struct Problem {
   Layout layout;
-  std::vector<Knot> knots;
+  KnotLine knots;
   std::vector<Epoch> epochs;            // the first is the first knot
   std::vector<Pose> poses;              // of the epochs that have one, by Epoch::pose
   std::vector<PoseNoise> pose_noise;    // per pose

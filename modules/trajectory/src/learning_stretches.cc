@@ -29,7 +29,8 @@ std::vector<Character> characters(const Problem& problem, std::size_t count) {
   std::vector<Character> out(count);
   std::vector<Vector3d> sum(count, Vector3d::Zero());
   std::vector<double> squares(count, 0.0), knots(count, 0.0), differences(count, 0.0);
-  for (const Knot& knot : problem.knots) {
+  for (std::size_t k = 0; k < problem.knots.size(); ++k) {
+    const Knot knot = problem.knots[k];
     const std::size_t i = stretch_at(knot.t, begin, count);
     sum[i] += knot.f;
     squares[i] += knot.f.squaredNorm();
@@ -132,8 +133,7 @@ Problem problem_of_stretches(const Problem& problem, const std::vector<Stretch>&
     for (std::size_t e = first; e <= last; ++e) {
       out.epochs.push_back({problem.epochs[e].knot - knot + moved, problem.epochs[e].pose});
     }
-    out.knots.insert(out.knots.end(), problem.knots.begin() + static_cast<std::ptrdiff_t>(knot),
-                     problem.knots.begin() + static_cast<std::ptrdiff_t>(end_knot) + 1);
+    out.knots.append(problem.knots, knot, end_knot + 1);
   }
   if (out.epochs.empty()) return problem;
   out.start_covariance = out.restart_covariance;

@@ -24,7 +24,7 @@ inertial_smoother::Checkpoint NoiseScale::judge(const inertial_smoother::Problem
   }
   inertial_smoother::Problem part = window;
   part.epochs.resize(window.checkpoint_epoch + 1);
-  part.knots.resize(part.epochs.back().knot + 1);
+  part.knots.shorten(part.epochs.back().knot + 1);
   const double keep = std::exp(-(part.knots.back().t - part.knots.front().t) / kMemory_s);
   const std::array<double, 3> factors{std::max(kLowest, factor_ / kStep), factor_, std::min(kHighest, factor_ * kStep)};
   for (std::size_t k = 0; k < rivals_.size(); ++k) {

@@ -47,7 +47,7 @@ double normalised_square(Nine nine) {
   return nine.value.dot(nine.covariance.ldlt().solve(nine.value));
 }
 
-NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& records, const Smoothed& smoothed) {
+NormalEquations sum_effects(const Problem& problem, ForwardRecords& records, const Smoothed& smoothed) {
   const Layout& layout = problem.layout;
   NormalEquations out;
   Vector3d middle_m = Vector3d::Zero();
@@ -58,14 +58,14 @@ NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& r
   Square X = Square::Zero(layout.size, kEffects);
   if (layout.accel_matrix >= 0) X.block<9, 9>(layout.accel_matrix, kAccel).setIdentity();
   if (layout.gyro_matrix >= 0) X.block<9, 9>(layout.gyro_matrix, kGyro).setIdentity();
+  Transition transition;  // to the epoch in hand
   for (std::size_t e = 0; e < records.size(); ++e) {
     if (e > 0) {
-      if (records[e - 1].transition.empty()) return {};
-      const Transition& transition = records[e - 1].transition.front();
       X.topRows<9>() += Transition::times(transition.rows(layout), X, layout);
       if (layout.slow >= 0) X.middleRows<6>(layout.slow) *= transition.slow_decay(problem);
     }
-    const Record& record = records[e];
+    const Record& record = records.at(e);
+    transition = record.transition;
     if (!record.updated) continue;
     const auto i = static_cast<std::size_t>(problem.epochs[e].pose);
     Rows<6> D = record.predicted.times(X, layout);
@@ -113,7 +113,7 @@ Estimate beside(const NormalEquations& equations, int first, int second) {
 
 }  // namespace
 
-StreamAgreement compare_streams(const Problem& problem, const std::vector<Record>& records, const Smoothed& smoothed) {
+StreamAgreement compare_streams(const Problem& problem, ForwardRecords& records, const Smoothed& smoothed) {
   const NormalEquations equations = sum_effects(problem, records, smoothed);
   StreamAgreement out;
   const Vector9d diagonal = Matrix3d::Identity().reshaped(9, 1);

@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <cmath>
+#include <vector>
 
 #include "../src/fused_problem.h"
 #include "../src/fused_setup.h"
+#include "../src/inertial_forward.h"
 #include "../src/inertial_model.h"
 #include "../src/learning_stretches.h"
 #include "../src/transition_sum.h"
@@ -16,14 +18,23 @@ namespace asperity {
 namespace {
 
 using inertial_smoother::Component;
-using inertial_smoother::Knot;
+using inertial_smoother::ForwardRecords;
+using inertial_smoother::KnotLine;
 using inertial_smoother::Mounting;
 using inertial_smoother::Nominal;
 using inertial_smoother::State;
 using inertial_smoother::Step;
 using inertial_smoother::TransitionSum;
+using ForwardRecord = inertial_smoother::Record;
 using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Vector3d;
+
+// Without the streams that they are made from.
+KnotLine hold(const KnotLine& knots) {
+  KnotLine out;
+  out.append(knots, 0, knots.size());
+  return out;
+}
 
 SmootherProblem make_problem(bool has_gyro) {
   testing_motion::RestingHand hand;
@@ -39,6 +50,7 @@ SmootherProblem make_problem(bool has_gyro) {
   const InertialStream inertial = calibrate_inertial(recording, config.inertial);
   SmootherProblem out =
       inertial_smoother::make_problem(recording, inertial, config, sensors.latency_s, inertial.t_ns.front());
+  out.knots = hold(out.knots);
   out.layout = inertial_smoother::choose_layout(recording.calibration, has_gyro, true, config);
   out.gravity = recording.info.gravity_world_mps2;
   inertial_smoother::set_constants(recording.calibration, has_gyro, config, out);
@@ -123,6 +135,59 @@ TEST(InertialSmoother, TheScoreOfStretchesIsTheDerivativeOfTheirLikelihood) {
     ASSERT_LT(problem.knots.size(), 0.7 * static_cast<double>(whole.knots.size()));
     expect_score_is_derivative(problem, has_gyro ? "" : " without a gyroscope");
   }
+}
+
+// What the filter keeps of an epoch, as one row of numbers.
+std::vector<double> numbers_of(const ForwardRecord& record, bool is_last) {
+  std::vector<double> out = record.P;
+  const auto add = [&](const auto& values) {
+    for (const double value : values.reshaped()) out.push_back(value);
+  };
+  for (const Vector3d& part : {record.x.p, record.x.v, record.x.ba, record.x.bg, record.x.lever}) add(part);
+  add(record.x.q.coeffs());
+  out.push_back(record.x.latency);
+  out.push_back(record.refused_in_a_row);
+  out.push_back(record.updated ? 1.0 : 0.0);
+  if (record.updated) {
+    add(record.predicted.residual);
+    add(record.S_inverse);
+    add(record.N_inverse);
+  }
+  if (is_last) return out;
+  for (const auto& part : {record.transition.pEg, record.transition.vEa}) add(part);
+  for (const auto& part : {record.transition.g1, record.transition.g2, record.transition.vbg}) add(part);
+  out.push_back(record.transition.T);
+  return out;
+}
+
+// The oracle is the pass that keeps all epochs at once. Forwards and backwards, and from one end to the other, as the
+// smoother and the comparison of the streams ask for them.
+TEST(InertialSmoother, RecordsFilteredAgainInBlocksAreTheSameToTheLastBit) {
+  const SmootherProblem problem = make_problem(true);
+  const std::size_t epochs = problem.epochs.size();
+  ForwardRecords whole(problem, {}, epochs);
+  for (const std::size_t block : {std::size_t{1}, std::size_t{7}, std::size_t{64}, epochs - 1}) {
+    ForwardRecords blocks(problem, {}, block);
+    ASSERT_EQ(blocks.size(), epochs);
+    const auto expect_same = [&](std::size_t e) {
+      EXPECT_EQ(numbers_of(blocks.at(e), e + 1 == epochs), numbers_of(whole.at(e), e + 1 == epochs))
+          << "epoch " << e << ", blocks of " << block;
+    };
+    for (std::size_t e = epochs; e-- > 0;) expect_same(e);
+    for (std::size_t e = 0; e < epochs; ++e) expect_same(e);
+    expect_same(0);
+  }
+}
+
+TEST(InertialSmoother, FilteringABlockAgainCanBeCancelled) {
+  const SmootherProblem problem = make_problem(true);
+  bool stop = false;
+  Observer observer;
+  observer.cancelled = [&stop] { return stop; };
+  ForwardRecords blocks(problem, observer, 16);
+  stop = true;
+  EXPECT_NO_THROW(blocks.at(problem.epochs.size() - 1));  // in memory
+  EXPECT_THROW(blocks.at(0), Cancelled);
 }
 
 }  // namespace

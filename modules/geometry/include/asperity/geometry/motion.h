@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "asperity/geometry/covariance_line.h"
+
 namespace asperity {
 
 // The sensors' own noise under a motion: one-sided densities, white, an axis. 0: not known, or there is none.
@@ -24,7 +26,7 @@ struct TipMotion {
   std::vector<Eigen::Quaterniond> q_world_marker;
   std::vector<Eigen::Vector3d> v_world_tip_mps;
   std::vector<Eigen::Vector3d> a_world_tip_mps2;  // gravity removed
-  std::vector<Eigen::Matrix3d> cov_world_tip_m2;  // covariance of the position; empty if the method gives none
+  CovarianceLine cov_world_tip_m2;                // of the position; empty if the method gives none
   // Of that, what comes from the tip's place in the marker, marker axes: one error for the whole motion.
   Eigen::Vector3d sigma_tip_in_marker_m = Eigen::Vector3d::Zero();
   MotionNoise noise;
