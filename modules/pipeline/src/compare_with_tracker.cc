@@ -86,6 +86,7 @@ struct PathLength {
   double noise_m = 0.0;     // that noise in the direction adds
   double resting_m = 0.0;   // from the beginning to the end of each rest
   double unsure_m = 0.0;    // the speed's sum at rest: in a narrow smoothing noise decides what is rest
+  double missed_m = 0.0;    // that between the first and the last motion
   double reversed_m = 0.0;  // that the smoothing may hide where the path turns round
 };
 
@@ -139,6 +140,7 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double turn_begins_s = path.t_s[run.first];
   std::size_t rest_begins = run.last;  // the run's last: no rest
+  double resting_m = 0.0;
   const auto end_rest = [&](std::size_t at) {
     if (rest_begins < at) out.resting_m += (position.p_m[at] - position.p_m[rest_begins]).norm();
     rest_begins = run.last;
@@ -153,11 +155,14 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
     if (speed_mps > kResting_sigmas * sigma_v_mps) {
       end_rest(i);
+      if (out.length_m > 0.0) out.missed_m += resting_m;
+      resting_m = 0.0;
       u = v_mps / speed_mps;
       out.length_m += (position.p_m[i + 1] - position.p_m[i]).dot(u);
       out.noise_m += 0.5 * sigma_v_mps * sigma_v_mps / speed_mps * dt_s;
     } else {
       out.unsure_m += speed_mps * dt_s;
+      resting_m += speed_mps * dt_s;
       if (rest_begins == run.last) rest_begins = i;
     }
     turn += u - u_before;
@@ -216,6 +221,7 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
       total.noise_m += part.noise_m;
       total.resting_m += part.resting_m;
       total.unsure_m += part.unsure_m;
+      total.missed_m += part.missed_m;
       total.reversed_m += part.reversed_m;
     }
     double bent_m2 = std::pow(total.length_m - narrower_m, 2);
@@ -228,7 +234,7 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
         std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
                   std::pow(total.reversed_m, 2) + bent_m2 + std::pow(kShapeError * total.length_m, 2));
     // In a smoothing in which noise lets most of the path seem at rest nothing is measured.
-    const bool measured = std::isfinite(stderr_m) && total.length_m > total.unsure_m;
+    const bool measured = std::isfinite(stderr_m) && total.length_m > total.missed_m;
     if (measured && !(stderr_m >= out.tracker_length_stderr_m)) {
       out.tracker_length_m = total.length_m;
       out.tracker_length_stderr_m = stderr_m;

@@ -67,8 +67,15 @@ double travel_speed_mps(const Truth& truth) {
   return time_s > 0.0 ? way_m / time_s : 0.0;
 }
 
-// From the true place in the first tenth of a second in contact to that in the last, by medians: about a period of a
-// hand's tremor, which at rest would make the lowest and the highest true place too far apart. nan if there is none.
+// The place of an end of the truth, `s_m` in order from the outer end: the median of the samples within a tenth of a
+// second, about a period of a hand's tremor, which at rest would make the lowest and the highest true place too far
+// apart. A tip that travels there is not at rest: its outermost place.
+double end_place_m(const std::vector<double>& s_m) {
+  constexpr double kResting_m = 0.5e-3;  // tremor and creep go less far
+  return std::abs(s_m.back() - s_m.front()) < kResting_m ? median(s_m) : s_m.front();
+}
+
+// Between the places of the first and the last tenth of a second in contact. nan if there is none.
 double true_length_m(const Truth& truth) {
   constexpr std::int64_t kEnd_ns = 100'000'000;
   std::size_t first = 0, last = truth.size();
@@ -76,12 +83,13 @@ double true_length_m(const Truth& truth) {
   while (last > first && !(truth.force_N[last - 1] > 0.0 && std::isfinite(truth.s_m[last - 1]))) --last;
   if (last == first) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> begin_m, end_m;
-  for (std::size_t i = first; i < last; ++i) {
-    if (!std::isfinite(truth.s_m[i])) continue;
-    if (truth.t_ns[i] - truth.t_ns[first] <= kEnd_ns) begin_m.push_back(truth.s_m[i]);
-    if (truth.t_ns[last - 1] - truth.t_ns[i] <= kEnd_ns) end_m.push_back(truth.s_m[i]);
+  for (std::size_t i = first; i < last && truth.t_ns[i] - truth.t_ns[first] <= kEnd_ns; ++i) {
+    if (std::isfinite(truth.s_m[i])) begin_m.push_back(truth.s_m[i]);
   }
-  return median(end_m) - median(begin_m);
+  for (std::size_t i = last; i > first && truth.t_ns[last - 1] - truth.t_ns[i - 1] <= kEnd_ns; --i) {
+    if (std::isfinite(truth.s_m[i - 1])) end_m.push_back(truth.s_m[i - 1]);
+  }
+  return end_place_m(end_m) - end_place_m(begin_m);
 }
 
 // The true heights, nan where the tip was off the surface for longer than a bounce: there is no surface in
@@ -173,7 +181,8 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
       aligned = align_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
     }
     out.profile = aligned.comparison;
-    out.profile->length_error_percent = 100.0 * (measure_coverage(profile).length_m / true_length_m(truth) - 1.0);
+    const double true_m = true_length_m(truth);
+    if (true_m > 0.0) out.profile->length_error_percent = 100.0 * (measure_coverage(profile).length_m / true_m - 1.0);
     out.heights = std::move(aligned.heights);
   }
   return out;

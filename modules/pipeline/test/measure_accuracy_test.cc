@@ -133,6 +133,20 @@ TEST(MeasureAccuracy, TremorAtRestDoesNotLengthenTheTruth) {
   EXPECT_NEAR(accuracy.profile->length_error_percent, 0.0, 0.01);
 }
 
+TEST(MeasureAccuracy, ATipThatTravelsFromTheFirstSampleOnLosesNoLength) {
+  const Recording recording = make_recording();
+  Profile profile = make_sine_profile(1.0);
+  profile.from_m = 0.0;
+  profile.to_m = recording.truth->s_m.back();
+  while (profile.s_m.back() + profile.spacing_m < profile.to_m) {
+    profile.s_m.push_back(static_cast<double>(profile.size()) * profile.spacing_m);
+    profile.height_m.push_back(wave_m(profile.s_m.back()));
+  }
+  const Accuracy accuracy = measure_accuracy(recording, make_motion(recording, Eigen::Vector3d::Zero()), profile, {});
+  ASSERT_TRUE(accuracy.profile);
+  EXPECT_NEAR(accuracy.profile->length_error_percent, 0.0, 1e-9);
+}
+
 TEST(MeasureAccuracy, WithoutHeightsOnlyPositionsAreCompared) {
   Recording recording = make_recording();
   recording.truth->height_m.assign(kSamples, kNan);

@@ -44,7 +44,7 @@ void mark_reversals(const EvenPath<2>& quick, const EvenPath<2>& sharp, const st
 }
 
 CloserDirection::CloserDirection(const EvenPath<2>& sharp, const std::vector<Eigen::Vector2d>& tangent,
-                                 const std::vector<char>& moving, std::vector<PathPart> parts)
+                                 const std::vector<char>& moving, std::vector<PathPart> parts, double rest_mps)
     : parts_(std::move(parts)) {
   if (std::find(parts_.begin(), parts_.end(), PathPart::kBend) == parts_.end()) return;
   turned_.assign(sharp.size(), Eigen::Vector2d::Zero());
@@ -52,12 +52,13 @@ CloserDirection::CloserDirection(const EvenPath<2>& sharp, const std::vector<Eig
   for (std::size_t i = 0; i < sharp.size(); ++i) {
     const Eigen::Vector2d v_mps = velocity_mps(sharp, i);
     const bool bent = parts_[i] == PathPart::kBend;
-    if ((moving[i] == 0 && !bent) || !(v_mps.norm() > 0.0)) continue;
+    // Nearly still cells would decide alone what noise adds: 1/v.
+    if ((!bent && (moving[i] == 0 || v_mps.norm() < rest_mps)) || !(v_mps.norm() > 0.0)) continue;
     const Eigen::Vector2d turned = v_mps.normalized() - tangent[i];
     if (bent) turned_[i] = turned;
     Sum& sum = bent ? bend : parts_[i] == PathPart::kBesideBend ? beside : straight;
     sum.added_m += turned.dot(v_mps * sharp.step_s);
-    sum.slowness += 1.0 / v_mps.norm();
+    sum.slowness += 1.0 / std::max(v_mps.norm(), rest_mps);
   }
   added_m_ = bend.added_m;
   if (straight.slowness < kEnoughStraight * beside.slowness) {

@@ -27,9 +27,9 @@ void mark_reversals(const EvenPath<2>& quick, const EvenPath<2>& sharp, const st
 // the path is straight, or beside bends where little of it is, gives w², and with it what is left out.
 class CloserDirection {
  public:
-  // All one a cell.
+  // All one a cell; rest_mps, slower than which the tip counts as moving with this.
   CloserDirection(const EvenPath<2>& sharp, const std::vector<Eigen::Vector2d>& tangent,
-                  const std::vector<char>& moving, std::vector<PathPart> parts);
+                  const std::vector<char>& moving, std::vector<PathPart> parts, double rest_mps);
 
   double added_m() const { return added_m_; }  // to the length by all bends, noise included
   // What of a step in a cell the closer direction adds, less what it adds by noise; 0 outside bends.

@@ -211,7 +211,9 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     centre_along_axis(evidence, circle);
     developed = develop_circle(circle, motion, out.path);
     const LeanAxes axes = axes_of(circle, evidence, out.path);
-    const Lean lean = find_lean(axes, circle.lean_sigma_rad, circle.lean_change_rad);
+    // Rows along the axis do not travel across it, as the lean by the motion supposes.
+    const Lean lean = circle.covers_area ? Lean{0.0, std::hypot(circle.lean_sigma_rad, circle.lean_change_rad), 0.0}
+                                         : find_lean(axes, circle.lean_sigma_rad, circle.lean_change_rad);
     turn_normals(motion, axes, lean, &circle.centre_m, out.path);
     out.lean_rad = lean.lean_rad;
     out.centre_world_m = circle.centre_m;

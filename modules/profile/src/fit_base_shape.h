@@ -26,6 +26,7 @@ struct CircleCandidate {
   double rms_m = 0.0;
   double tilt_rad = 0.0;
   double fine_m2 = 0.0;
+  bool covers_area = false;  // the path is a raster: it shows the normals itself
   // Of the normals' lean about the direction of travel: its mean over the path, and what changes along it.
   double lean_sigma_rad = 0.0;
   double lean_change_rad = 0.0;

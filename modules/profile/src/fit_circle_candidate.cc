@@ -12,7 +12,7 @@ namespace asperity {
 namespace {
 
 constexpr double kAxisTilt_rad =
-    30.0 * kDegreeOfFit_rad;  // of the cylinder's axis from the path's normal, a weak prior
+    30.0 * kDegreeOfFit_rad;  // of the cylinder's axis from the principal axis it starts at, a weak prior
 
 // A stroke with the forearm about the elbow is an arc of 0.33 m: what a hand's stroke bends sideways on the body.
 constexpr double kSideways_per_m = 3.0;
@@ -214,6 +214,7 @@ CircleCandidate fit_circle_candidate(const PlaneCandidate& plane, const PathEvid
     const double odds = circle_log_odds(plane, other, evidence, config);
     if (!(odds > best_odds)) continue;
     best = other;
+    best.covers_area = true;
     best_odds = odds;
   }
   return best;

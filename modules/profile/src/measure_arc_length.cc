@@ -36,6 +36,7 @@ constexpr double kBeyondNoise = 5.0;     // standard deviations: further no nois
 constexpr double kSameWay = 0.5;         // cosine: two directions within 60° are no reversal
 constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 constexpr double kCloser = 4.0;          // times the bends' cut-off: of the direction in bends
+constexpr double kHighestCutoff = 0.38;  // of the even path's rate: above, low_pass() leaves the path as it is
 constexpr double kMostTurned_rad = 0.3;  // by noise, if it were white: no closer
 
 std::vector<double> speeds(const EvenPath<2>& path) {
@@ -265,16 +266,15 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   for (std::size_t i = 0; i < path.size() && bend_m > 2.0 * config.noise_m; ++i)
     cut[i] = moving[i] != 0 && cut_m(slow, quick, i, beside[i] != 0) > bend_m ? 1 : 0;
   // Where noise lets it be followed no closer than the quick path does, what the bends hide is an error alone.
-  const double closer_Hz = kCloser * quick_Hz;
-  const double quiet_Hz =
-      config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : closer_Hz;
+  const double closer_Hz = std::min(kCloser * quick_Hz, kHighestCutoff / path.step_s);
+  const double quiet_Hz = config.noise_m > 0.0 ? kMostTurned_rad * usual_mps / (kNoiseTurns * config.noise_m) : 0.0;
   const bool follows = quiet_Hz > quick_Hz;
   const auto sharp = low_pass(path, follows ? std::min(closer_Hz, quiet_Hz) : closer_Hz);
   std::vector<PathPart> parts = find_bends(slow, quick, moving, cut, reach);
-  // Where bends below the noise are followed anyway, as over a mesh, a reversal is one of them.
+  // Not where bends below the noise are followed anyway, as over a mesh: there a reversal is one of them.
   if (bend_m > 2.0 * config.noise_m)
     mark_reversals(quick, sharp, moving, rest_mps, static_cast<std::size_t>(0.5 / (quick_Hz * path.step_s)), parts);
-  const CloserDirection closer(sharp, directions.tangent, moving, std::move(parts));
+  const CloserDirection closer(sharp, directions.tangent, moving, std::move(parts), rest_mps);
   out.bends_m = closer.added_m();
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];

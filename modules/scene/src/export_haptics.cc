@@ -141,7 +141,7 @@ void add_hmpg_losses(const std::string& stem, const HapticExperience& experience
       const double error = hmpg_value_error(perception, channel);
       if (error > 1e-5 * channel.gain) {  // else it is that of a gain alone
         problems.push_back({"not_exported",
-                            fmt::format("{}: {} to better than {}{}; HMPG has 8 bits for a value", printable(stem),
+                            fmt::format("{}: {} to about {}{}; HMPG has 8 bits for a value", printable(stem),
                                         quantity.name, rounded_text(quantity.per_si * error), quantity.unit),
                             1});
       }

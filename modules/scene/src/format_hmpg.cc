@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -121,6 +126,7 @@ std::string hmpg_band(const HapticChannel& channel, std::size_t effects, const C
   out.put(kHmpgLinearCurve, 4);
   out.put(0, 16);
   out.put(std::clamp(channel.highest_frequency, 0, kHighestHmpgFrequency), 16);
+  if (effects > 0xffff) fail_hmpg("more than 65535 effects in a band");
   out.put(static_cast<std::int64_t>(effects), 16);
   return hmpg_packet(HmpgPacket::kBand, out);
 }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -27,6 +29,7 @@ class HmpgParser {
     if (out_.perceptions.size() != perception_count_) fail("the number of perceptions is not the stated one");
     for (const HapticPerception& perception : out_.perceptions)
       for (const HapticChannel& channel : perception.channels) check_haptic_channel(channel, name_);
+    check_counts();
     return std::move(out_);
   }
 
@@ -35,6 +38,19 @@ class HmpgParser {
     std::size_t perception = 0, channel = 0;
     std::uint32_t perception_id = 0, channel_id = 0;
   };
+
+  // A file that lost units reads without a fault otherwise.
+  void check_counts() const {
+    for (std::size_t i = 0; i < out_.perceptions.size(); ++i) {
+      if (out_.perceptions[i].channels.size() != channel_counts_[i])
+        fail("the number of a perception's channels is not the stated one");
+    }
+    for (const auto& [band, count] : effect_counts_) {
+      const auto found = effects_.find(band);
+      if ((found == effects_.end() ? 0 : found->second.size()) != count)
+        fail("the number of a band's effects is not the stated one");
+    }
+  }
 
   [[noreturn]] void fail(const std::string& message) const { throw Error(name_ + ": " + message); }
 
@@ -157,7 +173,7 @@ class HmpgParser {
     perception.unit_exponent = static_cast<int>(in.take_signed(8));
     perception.perception_unit_exponent = static_cast<int>(in.take_signed(8));
     require_none(in.take(8), "reference devices");
-    in.take(16);
+    channel_counts_.push_back(in.take(16));
     out_.perceptions.push_back(std::move(perception));
   }
 
@@ -198,7 +214,7 @@ class HmpgParser {
     if (in.take(4) != static_cast<std::uint32_t>(kHmpgLinearCurve)) fail("curves that are not linear cannot be read");
     require_none(in.take(16), "lower frequency limits");
     channel_at(channel->second).highest_frequency = static_cast<int>(in.take(16));
-    in.take(16);
+    effect_counts_[id] = in.take(16);
   }
 
   HapticChannel& channel_at(const Place& place) { return out_.perceptions[place.perception].channels[place.channel]; }
@@ -207,14 +223,15 @@ class HmpgParser {
     in.take(1);
     const std::uint32_t perception_id = in.take(8);
     const std::uint32_t channel_id = in.take(16);
-    const auto band = bands_.find(in.take(8));
+    const std::uint32_t band_id = in.take(8);
+    const auto band = bands_.find(band_id);
     if (band == bands_.end() || band->second.perception_id != perception_id || band->second.channel_id != channel_id)
       fail("data of a band that is not given");
     const bool temporal = out_.perceptions[band->second.perception].modality == HapticModality::kVibrotactile;
     if (temporal != (unit_ == HmpgUnit::kTemporal)) fail("data in a unit of the other kind, spatial or temporal");
     const std::uint32_t effects = in.take(16);
     for (std::uint32_t i = 0; i < effects; ++i) {
-      in.take(16);
+      effects_[band_id].insert(in.take(16));  // what continues in another unit has the same id
       if (in.take(2) != static_cast<std::uint32_t>(kHmpgBasisEffect)) fail("effects other than Basis cannot be read");
       const std::int64_t begin = in.take_signed(25) + (temporal ? time_ : 0);
       require_none(in.take(1), "semantics");
@@ -246,6 +263,9 @@ class HmpgParser {
   std::map<std::uint32_t, std::size_t> perceptions_;
   std::map<std::uint32_t, Place> channels_;
   std::map<std::uint32_t, Place> bands_;
+  std::vector<std::uint32_t> channel_counts_;                 // as each perception states
+  std::map<std::uint32_t, std::uint32_t> effect_counts_;      // as each band states
+  std::map<std::uint32_t, std::set<std::uint32_t>> effects_;  // ids, of each band
 };
 
 }  // namespace

@@ -120,7 +120,23 @@ TEST(ParseHmpg, ReadsARepeatedInitialization) {
   EXPECT_THAT(refusal_of(other + whole), HasSubstr("a second initialization unit has other metadata"));
 }
 
-// Whatever the damage, an Error or an experience that can be written again.
+// A file that lost its last unit has fewer effects than its band states.
+TEST(ParseHmpg, AFileWithoutItsLastUnitIsRefused) {
+  const std::string whole = format_hmpg(long_vibration());
+  std::size_t last = 0, next = 0;
+  // Units: a header of 9 bytes that ends with the packets' size in 32 bits and 4 bits more.
+  while (next < whole.size()) {
+    last = next;
+    std::uint64_t header = 0;
+    for (std::size_t i = 1; i < 9; ++i) header = (header << 8) | static_cast<unsigned char>(whole[next + i]);
+    next += 9 + static_cast<std::size_t>((header >> 4) & 0xffffffffu);
+  }
+  ASSERT_EQ(next, whole.size());
+  ASSERT_GT(last, 9u + 103u);
+  EXPECT_THAT(refusal_of(whole.substr(0, last)), HasSubstr("the number of a band's effects is not the stated one"));
+}
+
+// Whatever the damage, an Error of this format or an experience.
 TEST(ParseHmpg, DamageIsAnError) {
   std::mt19937 random(7);
   const std::string whole = format_hmpg(long_vibration());
@@ -128,11 +144,9 @@ TEST(ParseHmpg, DamageIsAnError) {
     std::string bytes = whole;
     for (int change = 0; change < 3; ++change) bytes[random() % 180] = static_cast<char>(random() % 256);
     try {
-      const HapticExperience read = parse_hmpg(bytes, "x");
-      EXPECT_FALSE(read.perceptions.empty());
-      format_hjif(read);
+      EXPECT_FALSE(parse_hmpg(bytes, "x").perceptions.empty());
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()), "");
+      EXPECT_THAT(error.what(), testing::StartsWith("x: HMPG"));
     }
   }
 }

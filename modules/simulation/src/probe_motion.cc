@@ -42,7 +42,7 @@ ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface,
                             point.v_m + start.lateral_m * std::cos(point.angle_rad));
   height_m_ = profile_.at(s_m_, indentation_m).height_m + aside_m_ - indentation_m;
   rest_height_m_ = height_m_ - start.tremor_m;
-  // Set down on a slope, the tip slides until friction and the hand's spring hold it.
+  // Set down on a slope, the tip slides until friction and the hand's spring hold it, within some 0.2 s.
   constexpr double kSettling_s = 0.5;
   const auto steps = static_cast<std::int64_t>(std::ceil(kSettling_s / config.step_s));
   for (std::int64_t i = 0; i < steps; ++i) step(start);

@@ -132,7 +132,7 @@ ForwardRecords::ForwardRecords(const Problem& problem, const Observer& observer,
 
 void ForwardRecords::fill(ForwardPass& pass, std::size_t block, const Observer& observer) {
   const std::size_t first = block * block_epochs_, last = std::min(first + block_epochs_, epochs_);
-  block_ = block;
+  block_ = begins_.size();  // none, should this be cancelled
   for (std::size_t e = first; e < last; ++e) {
     Record& record = records_[e - first];
     pass.step(e > first ? &records_[e - first - 1].transition : nullptr, &record);
@@ -140,6 +140,7 @@ void ForwardRecords::fill(ForwardPass& pass, std::size_t block, const Observer& 
   }
   // The transition out of the block, by a step into the next one.
   if (last < epochs_) ForwardPass(pass).step(&records_[last - first - 1].transition, nullptr);
+  block_ = block;
 }
 
 const Record& ForwardRecords::at(std::size_t epoch) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -58,7 +59,10 @@ class KnotLine {
     if (!source_) held_.resize(size);
   }
   // Of a line without a source.
-  void push_back(const Knot& knot) { held_.push_back(knot); }
+  void push_back(const Knot& knot) {
+    assert(!source_);
+    held_.push_back(knot);
+  }
   void append(const KnotLine& from, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) held_.push_back(from[k]);
   }

@@ -34,10 +34,12 @@ struct TrackerComparison {
 // lengthen it. Where the velocity is below three of its standard deviations the tip counts as resting. Standard error:
 // the noise of q at the ends and where u turns; what noise in u adds; how far q is at the end of each rest from its
 // beginning; the difference from the next narrower h, or from any narrower one less that one's noise, if that is more;
-// and 0.5 % of the length, for the base shape. The white noise counts twice, a measured margin for rests.
-// The slow part of the poses' noise, which is not in their differences, goes through the same smoothing with its own
-// correlation exp(−Δt/time): its size and time are those that the trajectory has learnt (tracker_slow_sigma_m, …_rad
-// times the tip's distance, tracker_slow_time_s), otherwise those that the calibration states.
+// half of what the smoothed speed lacks where the path turns round by more than 60° within h (a raster's bends); and
+// 0.5 % of the length, for the base shape. A smoothing in which noise lets the tip seem at rest, between its first and
+// last motion, for more of the path than it measures is not used. The white noise counts twice, a measured margin for
+// rests. The slow part of the poses' noise, which is not in their differences, goes through the same smoothing with its
+// own correlation exp(−Δt/time): its size and time are those that the trajectory has learnt (tracker_slow_sigma_m,
+// …_rad times the tip's distance, tracker_slow_time_s), otherwise those that the calibration states.
 TrackerComparison compare_with_tracker(const Recording& recording, const TrajectoryResult& trajectory,
                                        const BasePathResult& base);
 

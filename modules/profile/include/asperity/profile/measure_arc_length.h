@@ -51,12 +51,13 @@ struct ArcLength {
 // t then cancel from step to step, whatever the rate, and only those of t remain, which shorten the path
 // by half the square of the angle. The low-pass works in time; its cut-off is that of the config times the
 // speed's 80th percentile: the lower one, and where that cuts a bend by more than bend_m, the higher. A bend is what is
-// so cut and what bends beside it, and a reversal of 60° or more; there the direction is that of four times the higher
-// cut-off. Real tangential motion at any frequency (stick–slip) is kept. At rest t is held, so s does not creep; it may
-// step back by what the tip steps back. In the rests before and after the path it has one value, their median, so that
-// the path does not grow by the range of its noise there; a tip that creeps during such a rest, by more than two to
-// four `noise_m`, is on its way, and begins or ends where the rest's outer end was. Where a stroke reverses, the path
-// is cut at its outermost point and s keeps growing. Throws Error if the sizes differ or the times do not rise.
+// so cut and what bends beside it, and, but for a bend_m below 2 noise_m, a reversal of 60° or more; there the
+// direction is that of four times the higher cut-off. Real tangential motion at any frequency (stick–slip) is kept. At
+// rest t is held, so s does not creep; it may step back by what the tip steps back. In the rests before and after the
+// path it has one value, their median, so that the path does not grow by the range of its noise there; a tip that
+// creeps during such a rest, by more than two to four `noise_m`, is on its way, and begins or ends where the rest's
+// outer end was. Where a stroke reverses, the path is cut at its outermost point and s keeps growing. Throws Error if
+// the sizes differ or the times do not rise.
 ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
                              std::span<const char> usable, const ArcLengthConfig& config);
 

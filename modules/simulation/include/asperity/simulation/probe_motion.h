@@ -32,7 +32,7 @@ struct MotionState {
 //   m h'' = F_c − F_hand,  F_c = max(0, k (z − h) + c (z' − h')),
 // along the path a hand spring against LuGre friction and the relief's slope; orientation and lateral
 // deviation follow the hand exactly (docs/virtual-bench.md). Before time begins the hand has held still on the
-// object until the tip has come to rest.
+// object for half a second.
 class ProbeMotion {
  public:
   // On the plane or cylinder of `config.shape`.
