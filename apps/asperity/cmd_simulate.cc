@@ -172,7 +172,7 @@ class SimulateCommand : public Command {
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
-    for (const Problem& problem : problems_) print_error("warning: " + printable(problem.message, 600));
+    for (const Problem& problem : problems_) say("warning: " + printable(problem.message, 600) + "\n");
     say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,
                     probe.size(), recording.tracker.size()));
   }
