@@ -169,10 +169,14 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.along_tracker_psd_m2ps = along_square.dot(tracker_psd) / samples;
   const LengthErrors length = measure_length_error(motion, base, recording.calibration.tip_in_marker_m,
                                                    recording.calibration.tip_radius_m, base.indentation_sigma_m);
-  const double bends = base.length_m > 0.0 ? length.bends_m / base.length_m : 0.0;
-  out.along_scale_sigma = std::hypot(length.scale_sigma, bends);
-  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it.
-  if (base.shape != PathShape::kMesh) out.stretch_sigma = out.along_scale_sigma;
+  const double per_m = base.length_m > 0.0 ? 1.0 / base.length_m : 0.0;
+  const double bends = per_m * length.bends_m, turns = per_m * length.turned_m;
+  out.along_scale_sigma = std::hypot(length.scale_sigma, bends, turns);
+  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it. Errors of turns
+  // add up as a random walk: of the same end, its variance about the path's mean (1/6) is twice that of a stretch (1/12).
+  if (base.shape != PathShape::kMesh) {
+    out.stretch_sigma = std::hypot(length.scale_sigma, bends, std::numbers::sqrt2 * turns);
+  }
   out.length_ends_m = length.ends_m;
   out.along_sigma_m = length.place_m;
   // What the smoother has learnt of the sensor's own noise, at one reading a period.

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kAlongStep_m = 1e-3;
 constexpr double kLevel_m = 0.1e-3;      // of the relief over the base, as deep textures are
+constexpr double kFades_s = 0.5;         // correlation time of a smoothed position's error
+constexpr double kClosest = 0.25;        // of what following bends closer adds: what the next closer one may
 constexpr double kIndependent_Hz = 1.0;  // slow errors of the height a second, as find_base_path.h takes them
 
 // The samples between which the path lies: the last of the rest before it and the first of that after it.
@@ -67,6 +69,21 @@ double along_variance_m2(const TipMotion& motion, std::size_t i, const Eigen::Ve
   return std::max(0.0, along.dot(own_covariance_m2(motion, i) * along));
 }
 
+// Of −∫ e·dt: the sum over pairs of steps, each with what has faded of those before it.
+double turned_variance_m2(const TipMotion& motion, const std::vector<Step>& steps) {
+  double out_m2 = 0.0;
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();  // Σ Δt of earlier steps, faded
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    const double time_s =
+        static_cast<double>(motion.t_ns[steps[k].from] - motion.t_ns[steps[k - 1].from]) * kNanosecond_s;
+    before *= std::exp(-time_s / kFades_s);
+    const Eigen::Vector3d turned = steps[k].along_world - steps[k - 1].along_world;
+    out_m2 += turned.dot(own_covariance_m2(motion, steps[k].from) * (turned + 2.0 * before));
+    before += turned;
+  }
+  return std::max(0.0, out_m2);
+}
+
 }  // namespace
 
 LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult& base,
@@ -80,12 +97,11 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   const std::vector<Step> steps = find_steps(base, ends);
   if (steps.empty()) return out;
 
-  double ends_m2 = along_variance_m2(motion, ends.first, steps.front().along_world) +
+  const double ends_m2 = along_variance_m2(motion, ends.first, steps.front().along_world) +
                    along_variance_m2(motion, ends.last, steps.back().along_world);
   Eigen::Vector3d turned_marker = Eigen::Vector3d::Zero();  // Σ ΔRᵀ t
   double turned_normal = 0.0;                               // Σ Δn·t
   std::vector<double> normal_m2, along_m2;
-  std::size_t turn = 0;
   for (const Step& step : steps) {
     const Eigen::Matrix3d R0 = motion.q_world_marker[step.from].toRotationMatrix();
     const Eigen::Matrix3d R1 = motion.q_world_marker[step.to].toRotationMatrix();
@@ -94,10 +110,6 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
     along_m2.push_back(along_variance_m2(motion, step.to, step.along_world));
     const Eigen::Vector3d& normal = base.path.n_world[step.to];
     normal_m2.push_back(std::max(0.0, normal.dot(own_covariance_m2(motion, step.to) * normal)));
-    for (; turn < base.turning_points.size() && base.turning_points[turn] <= step.to; ++turn) {
-      if (base.turning_points[turn] < ends.first) continue;
-      ends_m2 += 4.0 * along_variance_m2(motion, base.turning_points[turn], step.along_world);
-    }
   }
   const double duration_s = static_cast<double>(motion.t_ns[ends.last] - motion.t_ns[ends.first]) * kNanosecond_s;
   const double level_m = std::hypot(std::hypot(kLevel_m, indentation_sigma_m),
@@ -107,7 +119,8 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   const double tip_m = turned_marker.cwiseProduct(motion.sigma_tip_in_marker_m).norm();
   const double length_m = base.path.s_m[ends.last] - base.path.s_m[ends.first];
   out.ends_m = std::sqrt(ends_m2);
-  out.bends_m = 0.5 * std::abs(base.bends_m);
+  out.turned_m = std::sqrt(turned_variance_m2(motion, steps));
+  out.bends_m = kClosest * std::abs(base.bends_m);
   out.place_m = std::sqrt(mean(along_m2));
   out.scale_sigma = std::hypot(std::hypot(tip_m, ball_m), level_m * turned_normal) / length_m;
   return out;
