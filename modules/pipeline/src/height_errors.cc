@@ -172,8 +172,9 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   const double per_m = base.length_m > 0.0 ? 1.0 / base.length_m : 0.0;
   const double bends = per_m * length.bends_m, turns = per_m * length.turned_m;
   out.along_scale_sigma = std::hypot(length.scale_sigma, bends, turns);
-  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it. Errors of turns
-  // add up as a random walk: of the same end, its variance about the path's mean (1/6) is twice that of a stretch (1/12).
+  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it. Errors of
+  // turns add up as a random walk: of the same end, its variance about the path's mean (1/6) is twice that of a stretch
+  // (1/12).
   if (base.shape != PathShape::kMesh) {
     out.stretch_sigma = std::hypot(length.scale_sigma, bends, std::numbers::sqrt2 * turns);
   }

@@ -22,7 +22,7 @@ std::vector<PathPart> find_bends(const EvenPath<2>& slow, const EvenPath<2>& qui
 void mark_reversals(const EvenPath<2>& quick, const EvenPath<2>& sharp, const std::vector<char>& moving,
                     double rest_mps, std::size_t side, std::vector<PathPart>& parts);
 
-// Bends by the direction of a path that follows them closer than `tangent` does (docs/profile-length.md). Noise and
+// Bends by the direction of a path that follows them closer than `tangent` does (docs/profile-bends.md). Noise and
 // tremor turn that direction too: a velocity w across the path lengthens it by w²/(2 v) a second. What that is where
 // the path is straight, or beside bends where little of it is, gives w², and with it what is left out.
 class CloserDirection {

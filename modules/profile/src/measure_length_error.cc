@@ -98,7 +98,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   if (steps.empty()) return out;
 
   const double ends_m2 = along_variance_m2(motion, ends.first, steps.front().along_world) +
-                   along_variance_m2(motion, ends.last, steps.back().along_world);
+                         along_variance_m2(motion, ends.last, steps.back().along_world);
   Eigen::Vector3d turned_marker = Eigen::Vector3d::Zero();  // Σ ΔRᵀ t
   double turned_normal = 0.0;                               // Σ Δn·t
   std::vector<double> normal_m2, along_m2;
