@@ -94,7 +94,9 @@ std::string repeated_lines(const ProcessResult& result) {
 
 // A few lines for a person on what was measured.
 std::string result_summary(const ProcessResult& result) {
-  const auto shape = kPathShapeNames.at(static_cast<std::size_t>(result.base.shape));
+  const std::string_view shape = result.base.shape == PathShape::kDoublyCurved
+                                     ? "doubly curved surface"
+                                     : kPathShapeNames.at(static_cast<std::size_t>(result.base.shape));
   const double length_stderr_mm = 1e3 * result.noise.length_stderr_m;
   std::string out = fmt::format("  scan path   {} mm on a {}, {:.0f} % with heights, {:.1f} mm/s\n",
                                 with_error(1e3 * result.base.length_m, length_stderr_mm, 2), shape,

@@ -32,6 +32,9 @@ Json base_json(const BasePathResult& base) {
     out["radius_stderr_m"] = base.radius_stderr_m;
     out["outside"] = base.outside;
   }
+  if (base.shape == PathShape::kDoublyCurved) {
+    out["curvatures_per_m"] = {base.curvatures_per_m.x(), base.curvatures_per_m.y()};
+  }
   if (base.shape == PathShape::kCircle || base.shape == PathShape::kCurve) {
     out["lean_deg"] = base.lean_rad * 180.0 / std::numbers::pi;
   }

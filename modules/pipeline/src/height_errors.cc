@@ -216,7 +216,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration,
                 lean_rad(motion, base, moving), out);
   if (trajectory.object) add_object(*trajectory.object, motion, base, moving, out);
-  out.base_degree = base.shape == PathShape::kCircle || base.shape == PathShape::kCurve ? 2 : 1;
+  const bool flat = base.shape == PathShape::kPlane || base.shape == PathShape::kLine || base.shape == PathShape::kMesh;
+  out.base_degree = flat ? 1 : 2;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);
   out.scale_sigma = std::hypot(scale_sigma(recording.calibration.accelerometer, normal_marker.normalized()), turned);

@@ -23,7 +23,9 @@ constexpr double kForceLaw = 0.5 / std::numbers::sqrt3;
 
 void measure_on_surface(const TipMotion& motion, const BasePathConfig& config, BasePathResult& base,
                         bool force_limited) {
-  if (base.shape != PathShape::kCircle && base.shape != PathShape::kCurve) return;
+  if (base.shape != PathShape::kCircle && base.shape != PathShape::kCurve && base.shape != PathShape::kDoublyCurved) {
+    return;
+  }
   if (motion.force_N.size() != base.path.size()) return;
   StiffnessEstimate stiffness;
   if (!force_limited) {

@@ -48,8 +48,8 @@ void CausalBase::refit(const Eigen::Vector3d& here_m) {
   try {
     const BasePathResult base = find_base_path(history_, tip_in_marker_m_, config_.base);
     if (base.normal_sigma_deg > config_.base.probe_axis_sigma_deg) return;  // how the probe is held says more
-    if (base.shape == PathShape::kCurve || base.shape == PathShape::kMesh) {
-      // A curve has no closed form: its tangent plane where the tip is stands in until the next fit.
+    if (base.shape == PathShape::kCurve || base.shape == PathShape::kMesh || base.shape == PathShape::kDoublyCurved) {
+      // A curve has no closed form here: its tangent plane where the tip is stands in until the next fit.
       shape_ = PathShape::kCurve;
       centre_m_ = base.path.p_world_m.back();
       axis_ = base.path.n_world.back();

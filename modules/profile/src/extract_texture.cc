@@ -14,18 +14,39 @@ namespace asperity {
 
 namespace {
 
-// The high-pass of one run, less its straight line and mirrored at both ends. A mirror image keeps the
-// level of a texture; a point reflection would take an end that lies in a hole for the level, and a
-// line left in would be a kink at the mirror.
+// A run less its least-squares line or, if it is at least a wave of the cut-off long, parabola. In orthogonal
+// polynomials of the place x from -1 to 1: the square less its mean has no part of the line.
+std::vector<double> leave_out_bend(std::span<const double> run, bool bent) {
+  const std::size_t n = run.size();
+  const double middle = mean(run);
+  std::vector<double> x(n), square(n), out(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = 2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0;
+    square[i] = x[i] * x[i];
+  }
+  const double usual = mean(square);
+  double line = 0.0, line_norm = 0.0, bend = 0.0, bend_norm = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    square[i] -= usual;
+    line += x[i] * (run[i] - middle);
+    line_norm += x[i] * x[i];
+    bend += square[i] * (run[i] - middle);
+    bend_norm += square[i] * square[i];
+  }
+  const double slope = line / line_norm, curve = bent ? bend / bend_norm : 0.0;
+  for (std::size_t i = 0; i < n; ++i) out[i] = run[i] - middle - slope * x[i] - curve * square[i];
+  return out;
+}
+
+// The high-pass of one run, mirrored at both ends. A mirror image keeps the level of a texture; a point reflection
+// would take an end that lies in a hole for the level. A line or a bend left in would be a kink at the mirror: the
+// filter takes out a parabola, but of a round body that was taken for flat the ends would remain, 20 µm RMS of a 13 mm
+// stroke on a smooth sphere of 94 mm.
 std::vector<double> high_pass_mirrored(std::span<const double> run, double cutoff_cycles_per_mm, double rate_per_mm,
                                        const Observer& observer) {
   const std::size_t n = run.size();
-  std::vector<double> at(n);
-  for (std::size_t i = 0; i < n; ++i) at[i] = static_cast<double>(i);
-  const LinearFit line = linear_regression(at, run);
-  std::vector<double> level(n);
-  for (std::size_t i = 0; i < n; ++i) level[i] = run[i] - (line.slope * at[i] + line.intercept);
-
+  const std::vector<double> level =
+      leave_out_bend(run, static_cast<double>(n - 1) * cutoff_cycles_per_mm >= rate_per_mm);
   const auto wave = static_cast<std::size_t>(1.5 * rate_per_mm / cutoff_cycles_per_mm) + 1;
   const std::size_t pad = std::min(n - 1, wave);
   std::vector<double> padded;

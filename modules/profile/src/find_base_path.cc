@@ -3,18 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
 #include "base_curve.h"
+#include "development.h"
 #include "estimate_lean.h"
 #include "fit_base_shape.h"
+#include "fit_curved_surface.h"
 #include "motion_times.h"
 #include "path_evidence.h"
+#include "robust_plane.h"
 
 namespace asperity {
 
@@ -55,6 +60,20 @@ std::vector<Eigen::Vector2d> develop_circle(const CircleCandidate& circle, const
     path.p_world_m.push_back(circle.centre_m + along * circle.axis + circle.radius_m * radial);
     path.n_world.push_back(circle.outside ? radial : Eigen::Vector3d(-radial));
     u.emplace_back(circle.radius_m * angle, along);
+  }
+  return u;
+}
+
+// The same on a doubly curved surface, steps rolled into a plane.
+std::vector<Eigen::Vector2d> develop_curved(const CurvedSurface& surface, const TipMotion& motion, BasePath& path) {
+  std::vector<Eigen::Vector2d> u;
+  u.reserve(motion.size());
+  Development development;
+  for (const Eigen::Vector3d& p : motion.p_world_tip_m) {
+    const CurvedSurface::Foot foot = surface.foot(p);
+    path.p_world_m.push_back(foot.p_m);
+    path.n_world.push_back(foot.normal);
+    u.push_back(development.add(foot.p_m, foot.normal));
   }
   return u;
 }
@@ -137,13 +156,20 @@ void centre_along_axis(const PathEvidence& evidence, CircleCandidate& circle) {
   if (weight > 0.0) circle.centre_m += sum_m / weight * circle.axis;
 }
 
-PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
-                       const BasePathConfig& config, double& probability) {
-  if (config.shape != PathShape::kAuto) return config.shape == PathShape::kLine ? PathShape::kLine : config.shape;
+PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const CurvedSurface* curved,
+                       const PathEvidence& evidence, const BasePathConfig& config, double& probability) {
+  if (config.shape != PathShape::kAuto) return config.shape;
   const double odds = circle_log_odds(plane, circle, evidence, config);
   probability = 1.0 / (1.0 + std::exp(-std::abs(odds)));
   const bool round = odds > 0.0;
   const double rms_m = round ? circle.rms_m : plane.rms_m;
+  if (curved != nullptr) {
+    const double curved_odds = curved_log_odds(*curved, rms_m, round, evidence, config);
+    if (curved_odds > 0.0 && curved->rms_m < config.shape_tolerance_m) {
+      probability = 1.0 / (1.0 + std::exp(-curved_odds));
+      return PathShape::kDoublyCurved;
+    }
+  }
   if (rms_m > std::max(config.shape_tolerance_m, 5.0 * config.slow_error_m)) {
     probability = 1.0;
     return PathShape::kCurve;
@@ -194,7 +220,12 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
 
   PlaneCandidate plane = fit_plane_candidate(evidence, config);
   CircleCandidate circle = fit_circle_candidate(plane, evidence, config);
-  out.shape = choose_shape(plane, circle, evidence, config, out.shape_probability);
+  std::optional<CurvedSurface> curved;
+  if (config.shape == PathShape::kDoublyCurved ||
+      (config.shape == PathShape::kAuto && evidence.force_measured && covers_area(evidence, config))) {
+    curved = fit_curved_surface(plane, evidence, config);
+  }
+  out.shape = choose_shape(plane, circle, curved ? &*curved : nullptr, evidence, config, out.shape_probability);
 
   out.path.p_world_m.reserve(motion.size());
   out.path.n_world.reserve(motion.size());
@@ -227,6 +258,19 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     const double half_m = 0.5 * extent_m(evidence.coarse_m);
     const double ends_rad = half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
     out.normal_sigma_deg = kRadian_deg * std::hypot(lean.sigma_rad, ends_rad);
+  } else if (out.shape == PathShape::kDoublyCurved) {
+    developed = develop_curved(*curved, motion, out.path);
+    out.centre_world_m = curved->point_m;
+    out.axis_world = curved->axes.col(2);
+    const Eigen::Vector2d eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(-curved->curvature_per_m).eigenvalues();
+    out.curvatures_per_m = Eigen::Vector2d(eigenvalues(1), eigenvalues(0));
+    out.normal_sigma_deg = kRadian_deg * curved->normal_sigma_rad;
+    double square = 0.0;
+    for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i)
+      square += std::pow(angle_rad(evidence.coarse_axis[i], curved->foot(evidence.coarse_m[i]).normal), 2);
+    out.probe_tilt_deg = kRadian_deg * std::sqrt(square / static_cast<double>(evidence.coarse_m.size()));
+    out.base_rms_m = curved->rms_m;
   } else if (out.shape == PathShape::kCurve) {
     developed = develop_curve(evidence, t_s, motion, config.curve_cutoff_cycles_per_mm, out.path);
     const LeanAxes axes{find_across(evidence, t_s, out.path), {}};

@@ -112,10 +112,13 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   return out;
 }
 
+// A curvature below this is left to the texture's filter, which takes out a parabola (extract_texture.h).
+constexpr double kSignificant = 2.5;
+
 double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
                        const BasePathConfig& config) {
   constexpr double kNever = -50.0;
-  if (!(circle.significance > 4.0)) return kNever;
+  if (!(circle.significance > kSignificant)) return kNever;
   const double axis_sigma = std::max(config.probe_axis_sigma_deg, 25.0) * kDegreeOfFit_rad;
   double odds = 0.0;
   if (mean_axis(evidence).norm() > 0.1) {

@@ -5,6 +5,7 @@
 
 #include "asperity/algebra/solve.h"
 #include "fit_base_shape.h"
+#include "fit_curved_surface.h"
 #include "robust_plane.h"
 
 namespace asperity {
@@ -168,19 +169,22 @@ CircleCandidate fit_circle_about(const PlaneFit& plane, int about, const PathEvi
     find_lean_sigma(out, evidence, information.inverse(), e1, e2);
   }
 
-  double square = 0.0, side = 0.0;
+  const double square = square_of_means(evidence, [&](std::size_t c) {
+    const Eigen::Vector3d d = evidence.path.p_m[c] - out.centre_m;
+    return (d - d.dot(out.axis) * out.axis).norm() - out.radius_m;
+  });
+  double side = 0.0;
   std::vector<Eigen::Vector3d> radial;
   for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
     Eigen::Vector3d d = evidence.coarse_m[i] - out.centre_m;
     d -= d.dot(out.axis) * out.axis;
-    square += std::pow(d.norm() - out.radius_m, 2);
     radial.push_back(d.normalized());
     side += radial.back().dot(evidence.coarse_axis[i]);
     out.fine_m2 += radial.back().dot(evidence.coarse_fine_m2[i] * radial.back());
   }
   const double count = static_cast<double>(evidence.coarse_m.size());
   out.fine_m2 /= count;
-  out.rms_m = std::sqrt(square / count);
+  out.rms_m = std::sqrt(square);
   out.outside = side >= 0.0;
   double tilt = 0.0;
   for (std::size_t i = 0; i < radial.size(); ++i) {
@@ -200,14 +204,10 @@ CircleCandidate fit_circle_about(const PlaneFit& plane, int about, const PathEvi
 
 CircleCandidate fit_circle_candidate(const PlaneCandidate& plane, const PathEvidence& evidence,
                                      const BasePathConfig& config) {
-  constexpr double kWide = 3.0;  // slow errors: a path that covers an area
-  constexpr double kRows = 1.5;  // times the path's own extent: it comes back
   std::vector<double> weights;
   const PlaneFit fit = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
   CircleCandidate best = fit_circle_about(fit, 2, evidence, config);
-  const double extent_m = std::sqrt(12.0 * fit.scatter_m2.x());  // of points that are spread evenly
-  if (!(evidence.travelled_m.back() > kRows * extent_m)) return best;
-  if (!(std::sqrt(fit.scatter_m2.y()) > kWide * config.slow_error_m)) return best;
+  if (!covers_area(evidence, config)) return best;
   double best_odds = circle_log_odds(plane, best, evidence, config);
   for (const int about : {1, 0}) {
     const CircleCandidate other = fit_circle_about(fit, about, evidence, config);

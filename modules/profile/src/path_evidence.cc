@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -17,9 +18,35 @@ constexpr double kWindow_m = 10e-3;  // four periods of a 2.5 mm texture
 constexpr double kEvidenceSpeedCutoff_hz = 3.0;
 constexpr double kFineCutoff_hz = 15.0;     // above the hand's tremor
 constexpr double kSlowBandwidth_hz = 1.0;   // of the tracker's error after smoothing
+constexpr double kLifted_m = 1e-3;          // from where the tip left to where it touched again: another pass
 constexpr double kLargestSpeed_mps = 20.0;  // mean in contact; no hand is as fast, and the work grows with the distance
 
+// The number of each cell's pass.
+std::vector<std::size_t> number_passes(const PathEvidence& evidence, const std::vector<char>& touching) {
+  std::vector<std::size_t> out(touching.size(), 0);
+  std::size_t pass = 0, last = touching.size();
+  bool lifted = false;
+  for (std::size_t c = 0; c < touching.size(); ++c) {
+    if (touching[c] == 0) {
+      lifted = true;
+    } else {
+      if (lifted && last < touching.size() && (evidence.path.p_m[c] - evidence.path.p_m[last]).norm() > kLifted_m) {
+        ++pass;
+      }
+      lifted = false;
+      last = c;
+    }
+    out[c] = pass;
+  }
+  return out;
+}
+
 }  // namespace
+
+double PathEvidence::weight_in(const CoarseWindow& window, std::size_t cell) const {
+  const double x = (travelled_m[cell] + 0.5 * weight[cell] - window.centre_m) / window.width_m;
+  return std::abs(x) > 0.5 ? 0.0 : weight[cell] * (1.0 + std::cos(2.0 * std::numbers::pi * x));
+}
 
 PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_s, std::span<const char> contact,
                              const Eigen::Vector3d& tip_in_marker_m, const BasePathConfig& config) {
@@ -79,20 +106,27 @@ PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_
                     "calibration's units and offsets",
                     total_m, out.moving_s));
   }
+  const std::vector<std::size_t> pass = number_passes(out, touching);
   const double window_m = std::min(kWindow_m, total_m / 6.0);
   const auto count = static_cast<std::size_t>(std::max(5.0, std::floor(2.0 * total_m / window_m) - 1.0));
   for (std::size_t k = 0; k < count; ++k) {
     const double centre_m =
         0.5 * window_m + (total_m - window_m) * static_cast<double>(k) / static_cast<double>(count - 1);
-    const auto from = std::lower_bound(out.travelled_m.begin(), out.travelled_m.end(), centre_m - 0.5 * window_m);
+    const auto cell_at = [&](double travelled_m) {
+      const auto at = std::upper_bound(out.travelled_m.begin(), out.travelled_m.end(), travelled_m);
+      return std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, at - out.travelled_m.begin() - 1)),
+                      cells - 1);
+    };
+    const std::size_t middle = cell_at(centre_m);
+    CoarseWindow window{cell_at(centre_m - 0.5 * window_m), cell_at(centre_m + 0.5 * window_m) + 1, centre_m, window_m};
+    while (pass[window.begin] != pass[middle]) ++window.begin;
+    while (pass[window.end - 1] != pass[middle]) --window.end;
     double sum = 0.0;
     Eigen::Vector3d point = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
     Eigen::Matrix3d fine = Eigen::Matrix3d::Zero();
-    for (auto c = static_cast<std::size_t>(from - out.travelled_m.begin()); c < cells; ++c) {
-      const double x = (out.travelled_m[c] + 0.5 * out.weight[c] - centre_m) / window_m;
-      if (x > 0.5) break;
-      if (x < -0.5 || out.weight[c] == 0.0) continue;
-      const double w = out.weight[c] * (1.0 + std::cos(2.0 * M_PI * x));
+    for (std::size_t c = window.begin; c < window.end; ++c) {
+      const double w = out.weight_in(window, c);
+      if (w == 0.0) continue;
       const Eigen::Vector3d tangent = velocity_mps(smooth, c).normalized();
       Eigen::Vector3d across = out.path.p_m[c] - slow.p_m[c];
       across -= across.dot(tangent) * tangent;
@@ -102,6 +136,7 @@ PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_
       fine += w * across * across.transpose();
     }
     if (!(sum > 0.0)) continue;
+    out.windows.push_back(window);
     out.coarse_m.emplace_back(point / sum);
     out.coarse_axis.emplace_back(axis / sum);
     out.coarse_fine_m2.emplace_back(fine / sum);

@@ -159,6 +159,26 @@ TEST(ExtractTexture, IsMinusThreeDecibelsAtTheCutoffAndPassesAGap) {
   EXPECT_THROW(extract_texture(x, 0.0, 0.1, 0.0), Error);
 }
 
+// Of a round body that was taken for flat: a radius of 94 mm over 12.8 mm, which has 0.2 mm of sag.
+TEST(ExtractTexture, LeavesOutTheSagOfAShortStrokeOverARoundBody) {
+  std::vector<double> round(513), both(513), texture(513);
+  for (std::size_t k = 0; k < round.size(); ++k) {
+    const double s_m = 0.025e-3 * (static_cast<double>(k) - 256.0);
+    round[k] = -s_m * s_m / (2.0 * 0.094);
+    texture[k] = 5e-6 * std::sin(2.0 * std::numbers::pi * s_m / 1e-3);
+    both[k] = round[k] + texture[k];
+  }
+  const auto largest = [](const std::vector<double>& x) {
+    double out = 0.0;
+    for (const double value : x) out = std::max(out, std::abs(value));
+    return out;
+  };
+  EXPECT_LT(largest(extract_texture(round, 0.025e-3, 0.15, 2e-3)), 1e-9);
+  std::vector<double> difference = extract_texture(both, 0.025e-3, 0.15, 2e-3);
+  for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= texture[k];
+  EXPECT_LT(largest(difference), 1e-6);  // at the ends, where a mirror breaks a sine
+}
+
 // s as measure_arc_length gives it: one value in the rests before and after the path.
 TEST(MakeProfile, RestsBeforeAndAfterAddNoLengthAndMoveNothing) {
   const auto height = sine(50e-6, 0.8e-3);

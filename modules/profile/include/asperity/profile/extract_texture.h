@@ -9,7 +9,8 @@
 namespace asperity {
 
 // The zero-phase second-order Butterworth high-pass of a uniform profile (seed §5.2, errata 12 and 13):
-// -3 dB of the whole filter at `cutoff_cycles_per_mm`; 0 gives the heights less the mean of each run. Gaps
+// -3 dB of the whole filter at `cutoff_cycles_per_mm`, of each run less its least-squares parabola (its line, if it is
+// shorter than a wave of the cut-off); 0 gives the heights less the mean of each run. Gaps
 // (nan) up to bridge_m are bridged by straight lines for the filter and marked again after it; wider ones,
 // and the places in `breaks` (indices at which a new run begins), separate runs that are filtered each
 // for itself. A run of fewer than 8 points is nan. Throws Error for a spacing or a cut-off out of range; Cancelled

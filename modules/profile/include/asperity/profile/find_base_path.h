@@ -19,14 +19,16 @@
 namespace asperity {
 
 enum class PathShape {
-  kAuto,    // plane, circle or curve, by the evidence
-  kPlane,   // a flat object; a path too straight to fix the plane takes the probe's axis to help
-  kCircle,  // a body of revolution scanned across its axis: normals lie in the path's plane
-  kLine,    // a straight stroke: the normal from the probe's axis and the texture's direction alone
-  kCurve,   // none of these: the path's own long waves
-  kMesh,    // a registered mesh (base_path_on_mesh.h)
+  kAuto,          // plane, circle, doubly curved or curve, by the evidence
+  kPlane,         // a flat object; a path too straight to fix the plane takes the probe's axis to help
+  kCircle,        // a body of revolution scanned across its axis: normals lie in the path's plane
+  kLine,          // a straight stroke: the normal from the probe's axis and the texture's direction alone
+  kCurve,         // none of these: the path's own long waves
+  kMesh,          // a registered mesh (base_path_on_mesh.h)
+  kDoublyCurved,  // a surface of two curvatures, by a path that covers an area: rows over a sphere
 };
-inline constexpr std::array<std::string_view, 6> kPathShapeNames{"auto", "plane", "circle", "line", "curve", "mesh"};
+inline constexpr std::array<std::string_view, 7> kPathShapeNames{"auto",  "plane", "circle",       "line",
+                                                                 "curve", "mesh",  "doubly_curved"};
 
 struct BasePathConfig {
   PathShape shape = PathShape::kAuto;
@@ -75,11 +77,13 @@ struct BasePathResult {
   double bends_m = 0.0;  // what a direction that follows bends closer adds to them (measure_arc_length.h)
   std::vector<UndeterminedRotation> undetermined;
 
-  Eigen::Vector3d centre_world_m = Eigen::Vector3d::Zero();  // a point of the plane, or the circle's centre
-  Eigen::Vector3d axis_world = Eigen::Vector3d::UnitZ();     // the plane's outward normal, or the circle's axis
+  Eigen::Vector3d centre_world_m = Eigen::Vector3d::Zero();  // a point of the plane, the vertex, or the circle's centre
+  Eigen::Vector3d axis_world = Eigen::Vector3d::UnitZ();     // the outward normal (there), or the circle's axis
   double radius_m = 0.0;                                     // circle
-  double radius_stderr_m = 0.0;                              // allowing for errors that last
-  bool outside = true;                                       // circle: the probe is on its outside
+  // Doubly curved: the principal curvatures at the vertex, the larger first; positive bulges towards the probe.
+  Eigen::Vector2d curvatures_per_m = Eigen::Vector2d::Zero();
+  double radius_stderr_m = 0.0;  // allowing for errors that last
+  bool outside = true;           // circle: the probe is on its outside
   // Circle and curve: the mean by which n_world is turned from the shape's own normals, the circle's towards its axis,
   // about its centre; the change of the lean along the path comes to it (docs/profile.md).
   double lean_rad = 0.0;
@@ -105,7 +109,8 @@ struct BasePathResult {
 // than the motion's own standard deviation) and from the probe's axis; how far a circle's normals lean, from the same
 // and from the sideways curvature of a hand's stroke. Both are then corrected by the motion above 4 Hz, in which tremor
 // across the path and texture along the normal are not correlated, and by a force with three axes
-// (docs/profile-lean.md). Between plane and circle decide the curvature's significance, the probe's axis, the fine
+// (docs/profile-lean.md). A path in rows may also lie on a doubly curved surface
+// (docs/profile-base.md). Between plane and circle decide the curvature's significance, the probe's axis, the fine
 // motion's direction and the residuals.
 // Throws Error for fewer than 20 samples, sizes that differ, or numbers that are not finite.
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
