@@ -142,6 +142,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   Eigen::Vector3d normal_square = Eigen::Vector3d::Zero(), along_square = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_marker = Eigen::Vector3d::Zero(), mean_normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean_along = Eigen::Vector3d::Zero();
+  // Means of the squares of the normal and of the direction of travel in the marker.
+  Eigen::Vector3d normal_in_marker = Eigen::Vector3d::Zero(), along_in_marker = Eigen::Vector3d::Zero();
   std::vector<char> moving(n, 0), resting(n, 0);
   double samples = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -159,7 +161,10 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     mean_normal += normal;
     along_square += along.cwiseAbs2();
     mean_along += along.dot(mean_along) < 0.0 ? -along : along;
-    normal_marker += motion.q_world_marker[i].conjugate() * normal;
+    const Eigen::Vector3d in_marker = motion.q_world_marker[i].conjugate() * normal;
+    normal_marker += in_marker;
+    normal_in_marker += in_marker.cwiseAbs2();
+    along_in_marker += (motion.q_world_marker[i].conjugate() * along).cwiseAbs2();
     samples += 1.0;
   }
   if (samples == 0.0) return out;
@@ -183,19 +188,21 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   // What the smoother has learnt of the sensor's own noise, at one reading a period.
   const double period_s = duration_s(motion.t_ns) / static_cast<double>(n - 1);
   const double own_m2ps3 = 2.0 * std::pow(figure("accel_own_noise_mps2"), 2) * period_s;
+  const Eigen::Vector3d clipped_m2ps3 = axes("accel_clipped_", "_m2ps3");
   const auto white_m2ps3 = [&](const std::vector<double>& accel_mps2, const std::vector<double>& position_m,
-                               double tracker_m2ps) {
+                               const Eigen::Vector3d& in_marker, double tracker_m2ps) {
     const double seen = std::min(acceleration_floor_m2ps3(t_s, accel_mps2, moving),
                                  own_m2ps3 + folded_acceleration_m2ps3(t_s, accel_mps2, moving));
-    const double lost = gap_noise_m2ps3(t_s, accel_mps2, moving, replaced_samples(trajectory));
+    const double lost =
+        gap_noise_m2ps3(t_s, accel_mps2, moving, replaced_samples(trajectory)) + in_marker.dot(clipped_m2ps3) / samples;
     const double most = largest_acceleration_noise_m2ps3(t_s, position_m, moving, tracker_m2ps);
     return std::max(own_m2ps3, std::min(seen + lost, most));
   };
-  out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m,
+  out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m, normal_in_marker,
                                     least_tracker_psd_m2ps(normal_square / samples, tracker_psd, figure("poses_used")));
   out.accel_own_psd_m2ps3 = std::min(own_m2ps3, out.accel_psd_m2ps3);
   // Along the path the hand's own motion fills the low frequencies: nothing bounds the noise from above.
-  out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, 0.0);
+  out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, along_in_marker, 0.0);
   out.accel_walk_psd_m2ps5 = 2.0 * std::pow(figure("accel_bias_walk_mps2_rts"), 2);
   out.tracker_slow_sigma_m = std::sqrt(normal_square.dot(axes("tracker_slow_sigma_", "_m").cwiseAbs2()) / samples);
   out.tracker_slow_time_s = figure("tracker_slow_time_s");

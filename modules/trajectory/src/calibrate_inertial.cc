@@ -267,6 +267,7 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
                              ? config.accel_noise_floor_mps2
                              : std::max(kQuantisation_counts, quiet_noise(probe.accel_counts).mean()) / accel_scale;
 
+  const Eigen::Matrix3d inverse = B.inverse();
   std::vector<Eigen::Vector3d> accel_counts = probe.accel_counts;
   std::vector<double> clipped_sigma_mps2(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -277,16 +278,17 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
     // A long run hides its peak altogether.
     const double hidden =
         std::min(1.0, static_cast<double>(run.last - run.first) / 10.0) * 0.5 * (info.adc_max - info.adc_min);
-    for (std::size_t i = run.first; i < run.last; ++i) {
-      clipped_sigma_mps2[i] =
-          std::max(clipped_sigma_mps2[i], config.saturation_sigma * std::max(added, hidden) / accel_scale);
-    }
+    const double sigma_counts = config.saturation_sigma * std::max(added, hidden);
+    const double run_s = static_cast<double>(run.last - run.first) * out.period_s;
+    const Eigen::Vector3d velocity_mps = sigma_counts * run_s * inverse.col(run.axis);
+    out.clipped_m2ps3 += 2.0 * velocity_mps.cwiseAbs2() / (static_cast<double>(n) * out.period_s);
+    for (std::size_t i = run.first; i < run.last; ++i)
+      clipped_sigma_mps2[i] = std::max(clipped_sigma_mps2[i], sigma_counts / accel_scale);
   }
 
   out.specific_force_mps2.resize(n);
   out.accel_sigma_mps2.assign(n, out.accel_noise_mps2);
   const bool linear = calibration.accelerometer.model != AccelerometerModel::kQuadric;
-  const Eigen::Matrix3d inverse = B.inverse();
   Eigen::Matrix3d gyro_inverse = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gyro_offset = Eigen::Vector3d::Zero();
   if (out.has_gyro) {

@@ -120,6 +120,11 @@ void append_metrics(const InertialStream& inertial, const SmootherProblem& probl
   metrics["probe_rate_Hz"] = inertial.period_s > 0.0 ? 1.0 / inertial.period_s : 0.0;
   metrics["probe_clock_jitter_s"] = inertial.clock_jitter_s;
   metrics["accel_noise_mps2"] = inertial.accel_noise_mps2;
+  if (inertial.saturated > 0) {
+    metrics["accel_clipped_x_m2ps3"] = inertial.clipped_m2ps3.x();
+    metrics["accel_clipped_y_m2ps3"] = inertial.clipped_m2ps3.y();
+    metrics["accel_clipped_z_m2ps3"] = inertial.clipped_m2ps3.z();
+  }
   metrics["probe_saturated_share"] = static_cast<double>(inertial.saturated) / static_cast<double>(inertial.size());
 }
 

@@ -65,6 +65,10 @@ struct InertialStream {
   double gyro_noise_radps = 0.0;
   std::size_t spikes = 0;
   std::size_t saturated = 0;
+  // What restored peaks add to the noise of the acceleration along the marker's axes, one-sided density, m² s⁻³: a run
+  // of n samples whose heights err by σ together changes the velocity by σ n T, and Σ 2 (σ n T)² over the duration is
+  // white below the runs' rate.
+  Eigen::Vector3d clipped_m2ps3 = Eigen::Vector3d::Zero();
   Problems problems;
 
   std::size_t size() const { return t_ns.size(); }
