@@ -285,6 +285,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   }
   out.reads_no_contact = reads_no_contact(recording, result.config.base.contact.touch_N);
   out.tip_radius_m = recording.calibration.tip_radius_m;
+  if (recording.calibration.tip_in_marker_m.norm() > 0.0) out.probe_lean_deg = result.base.probe_tilt_deg;
   out.covered = result.coverage.covered;
   out.min_coverage = result.config.min_coverage;
   const Profile& profile = result.profile;

@@ -21,16 +21,16 @@ Eigen::Matrix3d mean_fine(const PathEvidence& evidence) {
   return sum / static_cast<double>(evidence.coarse_fine_m2.size());
 }
 
+// Smallest rotation from b to a for directions without a sign, in (-π/2, π/2].
+double axial_difference(double a, double b) { return std::remainder(a - b, kPiOfFit); }
+
+}  // namespace
+
 Eigen::Vector3d mean_axis(const PathEvidence& evidence) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& a : evidence.coarse_axis) sum += a;
   return sum / static_cast<double>(evidence.coarse_axis.size());
 }
-
-// Smallest rotation from b to a for directions without a sign, in (-π/2, π/2].
-double axial_difference(double a, double b) { return std::remainder(a - b, kPiOfFit); }
-
-}  // namespace
 
 PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
   std::vector<double> weights;
@@ -45,23 +45,26 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   const Eigen::Matrix3d fine = mean_fine(evidence);
   const double axis_sigma = config.probe_axis_sigma_deg * kDegreeOfFit_rad;
 
-  const bool use_path = config.shape != PathShape::kLine;
   // A path that leaves the plane by more than the slow error says less about it.
   const double error_m2 = std::max(config.slow_error_m * config.slow_error_m, fit.scatter_m2.z());
   // The posterior on a grid of a tenth of a degree over the half circle about its mode: it may have two humps.
   constexpr int kGridSteps = 1800;
   std::vector<double> log_density(kGridSteps);
-  int best = 0;
-  for (int k = 0; k < kGridSteps; ++k) {
-    const double phi = (static_cast<double>(k) / kGridSteps - 0.5) * kPiOfFit;
-    const double c = std::cos(phi), s = std::sin(phi);
-    double value = 0.0;
-    if (use_path)
-      value -= 0.5 * evidence.independent * (c * c * fit.scatter_m2.z() + s * s * fit.scatter_m2.y()) / error_m2;
-    if (axis_known) value -= 0.5 * std::pow(axial_difference(phi, axis_phi) / axis_sigma, 2);
-    log_density[static_cast<std::size_t>(k)] = value;
-    if (value > log_density[static_cast<std::size_t>(best)]) best = k;
-  }
+  const auto phi_of = [](int k) { return (static_cast<double>(k) / kGridSteps - 0.5) * kPiOfFit; };
+  const auto weigh = [&](bool use_path) {
+    for (int k = 0; k < kGridSteps; ++k) {
+      const double phi = phi_of(k), c = std::cos(phi), s = std::sin(phi);
+      double value = 0.0;
+      if (use_path)
+        value -= 0.5 * evidence.independent * (c * c * fit.scatter_m2.z() + s * s * fit.scatter_m2.y()) / error_m2;
+      if (axis_known) value -= 0.5 * std::pow(axial_difference(phi, axis_phi) / axis_sigma, 2);
+      log_density[static_cast<std::size_t>(k)] = value;
+    }
+    return static_cast<int>(std::max_element(log_density.begin(), log_density.end()) - log_density.begin());
+  };
+  int best = weigh(config.shape != PathShape::kLine);
+  // No hand holds a probe along the surface: this path is of strokes that sink deeper as the force rises.
+  if (axis_known && std::abs(axial_difference(phi_of(best), axis_phi)) > kLargestLean_rad) best = weigh(false);
   constexpr double kHump_rad = 30.0 * kDegreeOfFit_rad;
   double sum = 0.0, near = 0.0, first = 0.0, second = 0.0;
   for (int d = -kGridSteps / 2; d < kGridSteps / 2; ++d) {
@@ -76,7 +79,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   }
   // The mean of the hump about the mode: the mean over two humps would lie in neither.
   const double shift = first / near;
-  const double phi = (static_cast<double>(best) / kGridSteps - 0.5) * kPiOfFit + shift;
+  const double phi = phi_of(best) + shift;
 
   PlaneCandidate out;
   out.normal = std::cos(phi) * e3 + std::sin(phi) * e2;

@@ -5,6 +5,11 @@
 
 namespace asperity {
 
+// Of the probe from the surface's normal, as a hand holds it.
+constexpr double kLargestLean_rad = 0.7853981633974483;  // 45°
+
+Eigen::Vector3d mean_axis(const PathEvidence& evidence);  // of the probe, over the coarse points; zero if unknown
+
 // A plane or circle candidate for the base shape.
 struct PlaneCandidate {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();

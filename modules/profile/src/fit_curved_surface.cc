@@ -53,6 +53,9 @@ bool covers_area(const PathEvidence& evidence, const BasePathConfig& config) {
   constexpr double kRows = 1.5;  // times the path's own extent: it comes back
   std::vector<double> weights;
   const PlaneFit fit = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
+  // Wide across the probe: strokes over one line that sink deeper cover no area.
+  const Eigen::Vector3d axis = mean_axis(evidence);
+  if (std::abs(fit.axes.col(1).dot(axis)) > std::cos(kLargestLean_rad) * axis.norm()) return false;
   const double extent_m = std::sqrt(12.0 * fit.scatter_m2.x());  // of points that are spread evenly
   return evidence.travelled_m.back() > kRows * extent_m && std::sqrt(fit.scatter_m2.y()) > kWide * config.slow_error_m;
 }

@@ -88,6 +88,27 @@ TEST(BasePath, RowsOverAPlaneLieOnAPlane) {
   EXPECT_GE(flat, 14);
 }
 
+// To and fro over one line with a force that rises by 1.6 N, on a contact of 0.5 mm/N: the path spans the plane of the
+// stroke and the depth, which the probe lies in.
+TEST(BasePath, StrokesOverOneLineThatSinkDeeperHaveTheProbesNormal) {
+  const auto line =
+      on_plane([](double t) { return Eigen::Vector2d(t < 1.6 ? kSpeed_mps * t : kSpeed_mps * (3.2 - t), 0.0); },
+               [](double t) { return kSpeed_mps * t; });
+  const auto base = [&](double t) {
+    Point p = line(t);
+    p.p_m -= 0.25e-3 * t * p.normal;
+    return p;
+  };
+  Scan scan = make_scan(base, sine(10e-6, 1.1e-3), {.duration_s = 3.2, .slow_sigma_m = 0.03e-3});
+  for (std::size_t i = 0; i < scan.motion.size(); ++i) scan.motion.force_N[i] = 0.4 + 0.5e-9 * scan.motion.t_ns[i];
+  const BasePathResult result = find_base_path(scan.motion, scan.tip_in_marker_m, {});
+  EXPECT_LT(result.probe_tilt_deg, 25.0);
+  double worst = 1.0;
+  for (std::size_t i = 0; i < scan.normal.size(); ++i)
+    worst = std::min(worst, result.path.n_world[i].dot(scan.normal[i]));
+  EXPECT_GT(worst, std::cos(20.0 * std::numbers::pi / 180.0));  // as a hand holds the probe
+}
+
 // Two strokes the same way in a hollow cylinder, the tip lifted between: a mean over the lift is a point inside it, and
 // the cylinder was taken for a plane across its axis, which the probe lies in.
 TEST(BasePath, StrokesInAHollowCylinderWithALiftBetweenAreRound) {

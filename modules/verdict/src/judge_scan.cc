@@ -18,6 +18,7 @@ constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
 constexpr double kVibration_share = 0.1;   // of the texture's power
+constexpr double kLargestLean_deg = 45.0;  // as hands hold a probe
 constexpr std::size_t kFewSticks = 5;
 constexpr double kStuck_share = 0.05;
 constexpr double kNoisy_snr = 5.0;                  // a correlation with the surface of about 0.9
@@ -170,6 +171,12 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
         make_verdict("contact_unknown",
                      "the force never changes: where the tip touched is not known, and all of the path counts "
                      "as scanned"));
+  }
+  if (e.probe_lean_deg > kLargestLean_deg) {
+    out.push_back(make_verdict("normals_doubtful",
+                               fmt::format("the probe leans by {:.0f}° from the normals that the path has: they are "
+                                           "not the surface's",
+                                           e.probe_lean_deg)));
   }
   judge_force_range(e, out);
   judge_length(e, out);

@@ -58,6 +58,8 @@ constexpr VerdictCode kCodes[] = {
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
     {"positions_uncertain", kInvalid,
      "scan a shorter stroke, press less, or let the force rise along the stroke, which shows how soft the object is"},
+    {"normals_doubtful", kInvalid,
+     "hold the probe within 45° of the normal, scan with a steady force, and check the calibration of the tip"},
     {"error_unknown", kInvalid, "use the method `fused`"},
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
     {"vibration", kLimited, "switch off motors and fans nearby, and keep the sensor's cable away from mains cables"},

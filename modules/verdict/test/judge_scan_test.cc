@@ -57,6 +57,17 @@ std::vector<std::string> codes(const ScanEvidence& evidence) {
   return out;
 }
 
+TEST(JudgeScan, NormalsFromWhichTheProbeLeansAsNoHandHoldsItAreDoubtful) {
+  ScanEvidence e = good();
+  e.probe_lean_deg = 30.0;
+  EXPECT_TRUE(is_trustworthy(judge_scan(e)));
+  e.probe_lean_deg = 63.0;
+  const Verdicts verdicts = judge_scan(e);
+  EXPECT_FALSE(is_trustworthy(verdicts));
+  EXPECT_EQ(verdicts.front().code, "normals_doubtful");
+  EXPECT_THAT(verdicts.front().message, HasSubstr("63°"));
+}
+
 TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
 
 // Restored peaks differ from the tracker's motion by themselves, as in scan 1000068 of the bench (r = 0.93); wrong axes

@@ -66,8 +66,9 @@ struct ScanEvidence {
   double tip_radius_m = 0.0;
   double force_limited_share = 0.0;  // of the force's readings, at the end of its range (force_limit.h)
   double force_limit_N = kUnknown;
-  bool reads_no_contact = false;  // there is a calibrated force sensor, and its constant reading is below touching
-  double covered = kUnknown;      // part of the profile that has heights
+  bool reads_no_contact = false;     // there is a calibrated force sensor, and its constant reading is below touching
+  double probe_lean_deg = kUnknown;  // of the probe from the normals of the base
+  double covered = kUnknown;         // part of the profile that has heights
   double min_coverage = 0.5;
   bool error_known = true;  // the method gives the standard deviation of its heights
   double mean_speed_mps = kUnknown;
