@@ -225,6 +225,7 @@ class ImportCommand : public Command {
     Json out = asperity::write_stroke(folder.path(), reading.stroke, stroke_origins(reading.tables));
     write_listing(folder.path());
     commit_output(folder, output_);
+    out["unused"] = unused_columns_json(pointers_to(reading.tables));
     const bool trustworthy = out.at("trustworthy").get<bool>();
     out["stroke"] = output_;
     out["config"] = config_json(fields());
