@@ -124,10 +124,6 @@ void use_time_of(const ImportTable& other, ImportTable& table) {
   table.rate_Hz = other.rate_Hz;
 }
 
-const char* setting_name(FileRole role) {
-  return role == FileRole::kPose ? "pose" : role == FileRole::kImu ? "imu" : role == FileRole::kGyro ? "gyro" : "force";
-}
-
 // A file may hold several tables.
 bool is_same_table(const DelimitedTable& a, const DelimitedTable& b) {
   const auto begin = [](const DelimitedTable& table) { return table.row_begin.empty() ? 0 : table.row_begin.front(); };
@@ -171,6 +167,10 @@ std::string role_name(FileRole role) {
       break;
   }
   return "force";
+}
+
+std::string setting_name(FileRole role) {
+  return role == FileRole::kPose ? "pose" : role == FileRole::kImu ? "imu" : role == FileRole::kGyro ? "gyro" : "force";
 }
 
 ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config, const TableContext& context) {

@@ -50,4 +50,7 @@ FileMapping& mapping_of(MappingConfig& config, FileRole role);
 // "poses", "inertial sensor", "gyroscope", "force".
 std::string role_name(FileRole role);
 
+// The part of a setting's path, "pose" in mapping.pose.rate_Hz.
+std::string setting_name(FileRole role);
+
 }  // namespace asperity
