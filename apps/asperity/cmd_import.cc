@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/base/crc32.h"
+#include "asperity/base/csv.h"
 #include "asperity/base/folder_content.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -16,7 +20,7 @@
 #include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/recording/import_imu_pose.h"
-#include "asperity/recording/read_recording.h"
+#include "asperity/recording/recording_source.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/verdict/judge_stroke.h"
@@ -182,7 +186,7 @@ class ImportCommand : public Command {
       }
     }
     if (!save_mapping_.empty()) save(tables, motion);
-    OutputFolder folder(output_, is_replaceable_recording);
+    OutputFolder folder(output_, replaceable_by(source_of(recording)));
     write_recording(folder.path(), recording);
     observer.update("importing", 1.0);
     commit_output(folder, output_);
@@ -221,10 +225,16 @@ class ImportCommand : public Command {
       return is_trustworthy(judge_stroke(measure_stroke_evidence(reading.stroke))) ? kDone : kNotTrustworthy;
     }
     for (const std::string& doubt : reading.doubts) reading.stroke.problems.push_back({"implausible", doubt, 1});
-    OutputFolder folder(output_, naming_added(is_our_folder));
-    Json out = asperity::write_stroke(folder.path(), reading.stroke, stroke_origins(reading.tables));
+    const std::vector<StrokeOrigin> origins = stroke_origins(reading.tables);
+    OutputFolder folder(output_, [&](const std::filesystem::path& old) {
+      const bool is_ours = naming_added(is_our_folder)(old);
+      if (is_ours) refuse_other_stroke(old, origins);
+      return is_ours;
+    });
+    Json out = asperity::write_stroke(folder.path(), reading.stroke, origins);
     write_listing(folder.path());
     commit_output(folder, output_);
+    out["unused"] = unused_columns_json(pointers_to(reading.tables));
     const bool trustworthy = out.at("trustworthy").get<bool>();
     out["stroke"] = output_;
     out["config"] = config_json(fields());
@@ -234,9 +244,17 @@ class ImportCommand : public Command {
     return trustworthy ? kDone : kNotTrustworthy;
   }
 
+  static void refuse_other_stroke(const std::filesystem::path& folder, const std::vector<StrokeOrigin>& origins) {
+    const std::string other = source_beyond(folder, origins);
+    if (other.empty()) return;
+    throw Error(
+        printable(folder.string(), 200) + ": holds " + other +
+        ", which is replaced only by an import of the same files, unchanged; nothing was changed. Choose another "
+        "output folder, or move this one elsewhere");
+  }
+
   // The one form of file that needs no mapping.
   int run_fixed(const Observer& observer) {
-    OutputFolder folder(output_, is_replaceable_recording);
     ImportInput input = read_imu_pose(imu_file(), pose_, object_pose_);
     observer.update("importing", 0.5);
     const TrackerSigma sigma = tracker_sigma(estimate_pose_noise({input.pose_t_ns, input.T_world_body}), config_);
@@ -245,11 +263,28 @@ class ImportCommand : public Command {
     Recording recording = import_imu_pose(input, config_);
     recording.calibration.extra["tracker_sigma_from"] = {{"position", sigma.position_from},
                                                          {"rotation", sigma.rotation_from}};
+    recording.info.extra["import_origin"] = fixed_origin();
+    OutputFolder folder(output_, replaceable_by(source_of(recording)));
     write_recording(folder.path(), recording);
     observer.update("importing", 1.0);
     commit_output(folder, output_);
     report(recording, input.problems, tracker_sigma_text(sigma), nullptr);
     return kDone;
+  }
+
+  // The files, as make_imported_recording states them.
+  Json fixed_origin() const {
+    Json files = Json::array();
+    for (const auto& [role, file] :
+         {std::pair("poses", pose_), std::pair("inertial sensor", imu_file()), std::pair("poses", object_pose_)}) {
+      if (file.empty()) continue;
+      const std::string bytes = read_file(file, ReadLimits{}.csv_bytes);
+      files.push_back({{"role", role},
+                       {"file", std::filesystem::path(file).filename().string()},
+                       {"bytes", bytes.size()},
+                       {"crc32", fmt::format("{:08x}", crc32(bytes))}});
+    }
+    return {{"files", std::move(files)}};
   }
 
   void refuse_doubts(const ImportTables& tables, const ImportedMotion& motion) const {

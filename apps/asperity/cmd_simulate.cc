@@ -12,7 +12,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
-#include "asperity/recording/read_recording.h"
+#include "asperity/recording/recording_source.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/live_scan.h"
 #include "asperity/simulation/mesh_stroke.h"
@@ -124,7 +124,7 @@ class SimulateCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    OutputFolder folder(output_, is_replaceable_recording);
+    OutputFolder folder(output_, replaceable_by({RecordingKind::kSimulated, {}}));
     if (live_) return play(folder, observer);
     const Recording recording = simulate_recording(*config_, observer, &problems_);
     write_recording(folder.path(), recording);

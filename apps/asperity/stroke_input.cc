@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/interval_text.h"
 #include "asperity/base/text.h"
+#include "asperity/import/format_import.h"
 #include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/stroke_file.h"
 #include "asperity/import/stroke_spectra.h"
@@ -140,6 +141,12 @@ std::string stroke_columns_text(const std::vector<ImportTable>& tables) {
     if (table.rate_Hz > 0.0) out += fmt::format(" at {:.6g} Hz", table.rate_Hz);
     out += "\n";
   }
+  return out + unused_columns_text(pointers_to(tables));
+}
+
+std::vector<const ImportTable*> pointers_to(const std::vector<ImportTable>& tables) {
+  std::vector<const ImportTable*> out;
+  for (const ImportTable& table : tables) out.push_back(&table);
   return out;
 }
 

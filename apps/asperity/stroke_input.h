@@ -30,7 +30,8 @@ std::string stroke_text(const Stroke& stroke);
 std::string stroke_heights_text(const Stroke& stroke);
 Json stroke_heights_json(const Stroke& stroke);
 
-// Columns and their units, a line each, of the files that a stroke was read from.
+// Columns and their units, a line each, of the files that a stroke was read from, and the columns that nobody used.
 std::string stroke_columns_text(const std::vector<ImportTable>& tables);
+std::vector<const ImportTable*> pointers_to(const std::vector<ImportTable>& tables);
 
 }  // namespace asperity::app

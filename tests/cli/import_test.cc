@@ -64,6 +64,26 @@ TEST_F(ImportMapped, RefusesWhatCannotBe) {
   EXPECT_EQ(run(words({})).code, 2);  // neither --output nor --dry-run
 }
 
+// What was imported cannot be simulated again, nor imported of other data.
+TEST_F(ImportMapped, AnImportIsReplacedByTheSameFilesOnly) {
+  const std::string rec = (dir_ / "rec").string();
+  ASSERT_EQ(run(words({"-o", rec})).code, 0);
+  const auto before = contents(rec + "/");
+  const Outcome simulated = run({"simulate", "--surface", "sine", "--speed", "50mm/s", "-o", rec});
+  EXPECT_EQ(simulated.code, 1);
+  EXPECT_THAT(simulated.err,
+              HasSubstr("rec: holds a recording that was imported from all.csv, which is replaced only"));
+  EXPECT_EQ(contents(rec + "/"), before);
+  EXPECT_EQ(run(words({"-o", rec})).code, 0);
+  write_text(dir_ / "all.csv",
+             "Time [ms];X [mm];Y [mm];Z [mm];qw;qx;qy;qz;AccX [g];AccY [g];AccZ [g];F [mN]\n"
+             "0;1;2;0;1;0;0;0;0;0;1;100\n10;1;2;0;1;0;0;0;0;0;1;101\n");
+  const Outcome other = run(words({"-o", rec, "--unchecked"}));
+  EXPECT_EQ(other.code, 1);
+  EXPECT_THAT(other.err, HasSubstr("an import of the same files, unchanged; nothing was changed"));
+  EXPECT_EQ(contents(rec + "/"), before);
+}
+
 TEST_F(ImportMapped, TheTrackersNoiseCanBeStated) {
   const std::string rec = (dir_ / "rec").string();
   // Rotations that do not change have no noise that could be estimated.

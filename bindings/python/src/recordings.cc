@@ -10,6 +10,7 @@
 #include "asperity/base/output.h"
 #include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/recording/recording_source.h"
 #include "asperity/recording/validate_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "interruptible.h"
@@ -30,7 +31,7 @@ py::object inspect(const Recording& recording, const Settings& settings) {
 
 void write(const Recording& recording, const std::filesystem::path& folder) {
   interruptible([&](const Observer&) {
-    OutputFolder out(folder, is_replaceable_recording);
+    OutputFolder out(folder, replaceable_by(source_of(recording)));
     write_recording(out.path(), recording);
     out.commit();
   });

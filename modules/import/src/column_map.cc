@@ -124,18 +124,6 @@ std::vector<std::size_t> columns_named(const DelimitedTable& table, std::string_
   return found;
 }
 
-std::string column_list(const DelimitedTable& table, const std::vector<std::size_t>& columns) {
-  constexpr std::size_t kMostListed = 24;
-  std::string out;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (i == kMostListed) return out + fmt::format(" and {} more", columns.size() - i);
-    const std::string label = table.columns[columns[i]].label();
-    out += fmt::format("{}#{}{}", i == 0 ? "" : ", ", columns[i] + 1,
-                       label.empty() ? std::string() : " '" + printable(label) + "'");
-  }
-  return out;
-}
-
 }  // namespace
 
 ColumnGroup group_of(std::string_view meaning) { return meaning_words(meaning).group; }
@@ -226,9 +214,7 @@ MappedColumn find_stated_column(const StatedColumn& stated, const DelimitedTable
       found = columns_named(table, parts.name);
       name_unit = parts.unit;
     }
-    std::vector<std::size_t> all(table.columns.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (found.empty()) throw Error(fmt::format("{}: no such column; there are {}", where, column_list(table, all)));
+    if (found.empty()) throw Error(fmt::format("{}: no such column; there are {}", where, column_list(table)));
     if (found.size() > 1) throw Error(fmt::format("{}: this can be {}", where, column_list(table, found)));
     column = found.front();
   }
@@ -241,6 +227,24 @@ MappedColumn find_stated_column(const StatedColumn& stated, const DelimitedTable
   } else if (quantity != Quantity::kNumber && !header_unit.empty()) {
     out.unit = parse_import_unit(header_unit, quantity, fmt::format("{}: {}", table.file, table.describe(column))).name;
     out.unit_why = "header";
+  }
+  return out;
+}
+
+std::string column_list(const DelimitedTable& table) {
+  std::vector<std::size_t> all(table.columns.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return column_list(table, all);
+}
+
+std::string column_list(const DelimitedTable& table, const std::vector<std::size_t>& columns) {
+  constexpr std::size_t kMostListed = 24;
+  std::string out;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i == kMostListed) return out + fmt::format(" and {} more", columns.size() - i);
+    const std::string label = table.columns[columns[i]].label();
+    out += fmt::format("{}#{}{}", i == 0 ? "" : ", ", columns[i] + 1,
+                       label.empty() ? std::string() : " '" + printable(label) + "'");
   }
   return out;
 }

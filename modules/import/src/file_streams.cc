@@ -10,17 +10,13 @@
 #include <Eigen/LU>
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "parse_time.h"
+#include "lost_poses.h"
+#include "row_times.h"
 #include "split_cells.h"
 
 namespace asperity {
 
 namespace {
-
-[[noreturn]] void fail_at(const DelimitedTable& table, std::size_t row, std::size_t column, const std::string& what) {
-  throw Error(fmt::format("{}:{}: {}: '{}' {}", table.file, table.row_line[row], table.describe(column),
-                          printable(table.cell(row, column)), what));
-}
 
 const MappedColumn& needed(const ImportTable& in, const std::string& meaning) {
   if (const MappedColumn* column = find_meaning(in.map, meaning)) return *column;
@@ -53,40 +49,6 @@ std::vector<double> si_values(const ImportTable& in, const std::string& meaning)
   return out;
 }
 
-std::optional<std::int64_t> time_of_cell(const ImportTable& in, const MappedColumn& mapped, const ImportUnit& unit,
-                                         std::size_t row) {
-  const std::string_view cell = in.table.cell(row, mapped.column);
-  if (is_missing_cell(cell)) return std::nullopt;
-  const auto t_ns = unit.is_date ? parse_date_time_ns(cell) : parse_decimal_ns(cell, unit.ns);
-  if (!t_ns) fail_at(in.table, row, mapped.column, unit.is_date ? "is not a date and time" : "is not a time");
-  return t_ns;
-}
-
-std::vector<std::optional<std::int64_t>> row_times(const ImportTable& in) {
-  std::vector<std::optional<std::int64_t>> out(in.table.rows());
-  const MappedColumn* time = find_meaning(in.map, "t");
-  if (time == nullptr) {
-    const double period_ns = 1e9 / in.rate_Hz;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::llround(static_cast<double>(i) * period_ns);
-    return out;
-  }
-  const ImportUnit unit = parse_import_unit(time->unit, Quantity::kTime, in.table.file);
-  const MappedColumn* fine = find_meaning(in.map, "t2");
-  const ImportUnit fine_unit = fine ? parse_import_unit(fine->unit, Quantity::kTime, in.table.file) : ImportUnit{};
-  constexpr std::int64_t kFar_ns = std::int64_t{1} << 61;
-  for (std::size_t row = 0; row < out.size(); ++row) {
-    out[row] = time_of_cell(in, *time, unit, row);
-    if (fine == nullptr || !out[row]) continue;
-    const auto more = time_of_cell(in, *fine, fine_unit, row);
-    if (!more || std::abs(*more) > kFar_ns || std::abs(*out[row]) > kFar_ns) {
-      out[row].reset();
-    } else {
-      *out[row] += *more;
-    }
-  }
-  return out;
-}
-
 void note_rows(const ImportTable& in, const char* kind, std::size_t count, const std::string& message,
                Problems& problems) {
   if (count == 0) return;
@@ -94,15 +56,67 @@ void note_rows(const ImportTable& in, const char* kind, std::size_t count, const
       {kind, fmt::format("{}: {} {} {}", in.table.file, count, count == 1 ? "row" : "rows", message), count});
 }
 
+// Rows that were put in order and then are hours apart are of several clocks or recordings.
+void refuse_far_apart(const ImportTable& in, const std::vector<std::optional<std::int64_t>>& t_ns,
+                      const std::vector<std::size_t>& rows, std::size_t first_line) {
+  constexpr double kHour_s = 3600.0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double gap_s = 1e-9 * static_cast<double>(*t_ns[rows[i]] - *t_ns[rows[i - 1]]);
+    if (gap_s <= kHour_s) continue;
+    throw Error(
+        fmt::format("{}:{}: a time before that of the row above, and put in order the times have a gap of {:.4g} "
+                    "h: split the file where its clock begins again, or state the unit of the time",
+                    in.table.file, first_line, gap_s / kHour_s));
+  }
+}
+
+// The same values at the same time are one row that was written twice.
+bool is_same_row(const ImportTable& in, std::size_t a, std::size_t b) {
+  return std::all_of(in.map.begin(), in.map.end(), [&](const MappedColumn& column) {
+    const std::vector<double>& values = in.table.columns[column.column].values;
+    return group_of(column.meaning) == ColumnGroup::kTime || values[a] == values[b];
+  });
+}
+
+// Rows a second by a straight line through the times: coarse steps do not bend it.
+double mean_row_rate_Hz(const std::vector<std::optional<std::int64_t>>& t_ns, const std::vector<std::size_t>& rows) {
+  const double n = static_cast<double>(rows.size());
+  double covariance = 0.0, mean_s = 0.0;
+  for (const std::size_t row : rows) mean_s += 1e-9 * static_cast<double>(*t_ns[row] - *t_ns[rows.front()]) / n;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    covariance += (static_cast<double>(i) - 0.5 * (n - 1.0)) *
+                  (1e-9 * static_cast<double>(*t_ns[rows[i]] - *t_ns[rows.front()]) - mean_s);
+  }
+  return covariance > 0.0 ? n * (n * n - 1.0) / 12.0 / covariance : 0.0;
+}
+
+// Times of which many rows share one are those of a clock too coarse for its rows.
+void refuse_coarse_times(const ImportTable& in, const std::vector<std::optional<std::int64_t>>& t_ns,
+                         const std::vector<std::size_t>& rows) {
+  std::size_t shared = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (*t_ns[rows[i]] == *t_ns[rows[i - 1]] && !is_same_row(in, rows[i], rows[i - 1])) ++shared;
+  }
+  constexpr double kMostShared = 0.01;
+  if (static_cast<double>(shared) <= kMostShared * static_cast<double>(rows.size())) return;
+  const double rate_Hz = mean_row_rate_Hz(t_ns, rows);
+  throw UnstatedSetting(
+      fmt::format("{}: {} of {} rows of the {} have the time of an earlier one: the clock is too coarse for its rate; "
+                  "state the rate instead of the times",
+                  in.table.file, shared, rows.size(), role_name(in.role)),
+      {fmt::format("mapping.{}.rate_Hz", setting_name(in.role)), fmt::format("{:.6g}", rate_Hz)});
+}
+
 // The rows to keep, in order of time: those for which `is_usable(row)` and that have a time, the first of equal times.
+// `known` of the others are reported already.
 template <class Usable>
 std::vector<std::size_t> ordered_rows(const ImportTable& in, const std::vector<std::optional<std::int64_t>>& t_ns,
-                                      const Usable& is_usable, Problems& problems) {
+                                      const Usable& is_usable, Problems& problems, std::size_t known = 0) {
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < t_ns.size(); ++row) {
     if (t_ns[row] && is_usable(row)) rows.push_back(row);
   }
-  note_rows(in, "missing_values", t_ns.size() - rows.size(), "without all values were left out", problems);
+  note_rows(in, "missing_values", t_ns.size() - rows.size() - known, "without all values were left out", problems);
   const auto earlier = [&](std::size_t a, std::size_t b) { return *t_ns[a] < *t_ns[b]; };
   std::size_t backwards = 0, first = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -113,7 +127,11 @@ std::vector<std::size_t> ordered_rows(const ImportTable& in, const std::vector<s
       in, "time_backwards", backwards,
       fmt::format("with a time before that of the row above, first in line {}; the rows were put in order", first),
       problems);
-  if (backwards > 0) std::stable_sort(rows.begin(), rows.end(), earlier);
+  if (backwards > 0) {
+    std::stable_sort(rows.begin(), rows.end(), earlier);
+    refuse_far_apart(in, t_ns, rows, first);
+  }
+  refuse_coarse_times(in, t_ns, rows);
   const std::size_t all = rows.size();
   rows.erase(std::unique(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return *t_ns[a] == *t_ns[b]; }),
              rows.end());
@@ -209,7 +227,7 @@ class RotationReader {
 VectorStream read_vectors(const ImportTable& in, char letter, Problems& problems) {
   std::array<std::vector<double>, 3> values;
   for (std::size_t i = 0; i < 3; ++i) values[i] = si_values(in, std::string(1, letter) + "xyz"[i]);
-  const auto t_ns = row_times(in);
+  const auto t_ns = read_row_times(in, problems);
   const auto usable = [&](std::size_t row) {
     return !std::isnan(values[0][row]) && !std::isnan(values[1][row]) && !std::isnan(values[2][row]);
   };
@@ -223,7 +241,7 @@ VectorStream read_vectors(const ImportTable& in, char letter, Problems& problems
 
 ScalarStream read_scalars(const ImportTable& in, const char* meaning, Problems& problems) {
   const std::vector<double> values = si_values(in, meaning);
-  const auto t_ns = row_times(in);
+  const auto t_ns = read_row_times(in, problems);
   ScalarStream out;
   for (const std::size_t row : ordered_rows(
            in, t_ns, [&](std::size_t i) { return !std::isnan(values[i]); }, problems)) {
@@ -237,14 +255,15 @@ PoseStream read_poses(const ImportTable& in, const MappingConfig& config, Proble
   std::array<std::vector<double>, 3> position;
   for (std::size_t i = 0; i < 3; ++i) position[i] = si_values(in, std::string("p") + "xyz"[i]);
   const RotationReader rotations(in, config);
-  const auto t_ns = row_times(in);
+  const auto t_ns = read_row_times(in, problems);
   std::vector<std::optional<Eigen::Quaterniond>> q(in.table.rows());
   for (std::size_t row = 0; row < q.size(); ++row) q[row] = rotations.rotation(row);
+  const std::size_t lost = leave_out_zero_poses(in, position, q, problems);
   const auto usable = [&](std::size_t row) {
     return q[row] && !std::isnan(position[0][row]) && !std::isnan(position[1][row]) && !std::isnan(position[2][row]);
   };
   PoseStream out;
-  for (const std::size_t row : ordered_rows(in, t_ns, usable, problems)) {
+  for (const std::size_t row : ordered_rows(in, t_ns, usable, problems, lost)) {
     out.t_ns.push_back(*t_ns[row]);
     out.T_world_body.push_back({config.invert_rotation ? q[row]->conjugate() : *q[row],
                                 {position[0][row], position[1][row], position[2][row]}});

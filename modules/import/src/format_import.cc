@@ -41,6 +41,26 @@ std::string why_text(const MappedColumn& column) {
 
 }  // namespace
 
+std::string unused_columns_text(const std::vector<const ImportTable*>& tables) {
+  std::string out;
+  for (const UnusedColumns& unused : unused_columns(tables)) {
+    out += fmt::format("not used    {}: {}\n", printable(unused.table->table.file, 200),
+                       column_list(unused.table->table, unused.columns));
+  }
+  return out;
+}
+
+Json unused_columns_json(const std::vector<const ImportTable*>& tables) {
+  Json out = Json::array();
+  for (const UnusedColumns& unused : unused_columns(tables)) {
+    Json columns = Json::array();
+    for (const std::size_t i : unused.columns)
+      columns.push_back({{"number", i + 1}, {"name", unused.table->table.columns[i].label()}});
+    out.push_back({{"file", unused.table->table.file}, {"columns", std::move(columns)}});
+  }
+  return out;
+}
+
 std::string import_table_text(const ImportTables& tables) {
   std::string out;
   for (const ImportTable* table : tables.all()) {
@@ -57,7 +77,7 @@ std::string import_table_text(const ImportTables& tables) {
                          why_text(column));
     }
   }
-  return out;
+  return out + unused_columns_text(tables.all());
 }
 
 std::string import_summary_text(const ImportTables& tables) {
@@ -72,7 +92,7 @@ std::string import_summary_text(const ImportTables& tables) {
     if (table->rate_Hz > 0.0) out += fmt::format(" at {:.6g} Hz", table->rate_Hz);
     out += "\n";
   }
-  return out;
+  return out + unused_columns_text(tables.all());
 }
 
 std::string import_checks_text(const ImportedMotion& motion) {
@@ -143,6 +163,7 @@ Json import_json(const ImportTables& tables, const ImportedMotion& motion) {
     }
     out["files"].push_back(std::move(file));
   }
+  out["unused"] = unused_columns_json(tables.all());
   out["up"] = motion.up;
   out["gravity_mps2"] = motion.checks.rest_mps2;
   out["rate_ratio"] = motion.checks.rate_ratio;

@@ -5,6 +5,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "asperity/import/guess_columns.h"
+#include "column_words.h"
 
 namespace asperity {
 
@@ -22,17 +23,9 @@ double share_of_values(const DelimitedColumn& column, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-// "px_mm", "gx_deg_s", "time_ms": the unit at the end of a name, behind its last or last but one _.
 std::optional<ImportUnit> unit_in_name(const std::string& name, Quantity quantity) {
-  const auto last = name.rfind('_');
-  if (last == std::string::npos || last == 0) return std::nullopt;
-  const auto before = name.rfind('_', last - 1);
-  if (before != std::string::npos && before > 0) {
-    std::string unit = name.substr(before + 1);
-    unit[last - before - 1] = '/';
-    if (auto found = find_import_unit(unit, quantity)) return found;
-  }
-  return find_import_unit(name.substr(last + 1), quantity);
+  const auto split = split_unit_of_name(name);
+  return split ? find_import_unit(split->unit, quantity) : std::nullopt;
 }
 
 std::string time_unit_by_values(const DelimitedColumn& column) {

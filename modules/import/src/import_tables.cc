@@ -14,16 +14,39 @@ namespace asperity {
 
 namespace {
 
-ImportTable read_import_table(const std::filesystem::path& path, FileRole role, const MappingConfig& config,
-                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits,
-                              const Observer& observer, double same_file_Hz = 0.0) {
-  observer.update("import", 0.0);
-  std::string text = read_file(path, limits.csv_bytes);
-  std::string section = mapping_of(config, role).section;
-  if (section.empty()) section = preset_section(text, role);
-  return map_table(read_delimited(std::move(text), path.string(), section, observer), role, config, elsewhere,
-                   same_file_Hz);
-}
+// One file for one role or several of them; what one role uses is not the others'.
+class TablesReader {
+ public:
+  TablesReader(const MappingConfig& config, const ReadLimits& limits, const Observer& observer)
+      : config_(config), limits_(limits), observer_(observer) {}
+
+  // `roles`: all that read this file.
+  ImportTable read(const std::filesystem::path& path, FileRole role, const std::vector<FileRole>& roles,
+                   const std::vector<const std::optional<ImportTable>*>& earlier, TableContext context) const {
+    observer_.update("import", 0.0);
+    std::string text = read_file(path, limits_.csv_bytes);
+    const std::string section = section_of(text, role);
+    for (const FileRole other : roles) {
+      if (other != role && section_of(text, other) == section) context.others.push_back(other);
+    }
+    for (const auto* table : earlier) {
+      const bool is_other = std::find(context.others.begin(), context.others.end(), *table ? (*table)->role : role) !=
+                            context.others.end();
+      if (*table && is_other) context.earlier.push_back(&**table);
+    }
+    return map_table(read_delimited(std::move(text), path.string(), section, observer_), role, config_, context);
+  }
+
+ private:
+  std::string section_of(const std::string& text, FileRole role) const {
+    const std::string& stated = mapping_of(config_, role).section;
+    return stated.empty() ? preset_section(text, role) : stated;
+  }
+
+  const MappingConfig& config_;
+  const ReadLimits& limits_;
+  const Observer& observer_;
+};
 
 bool states_force(const MappingConfig& config) {
   for (const std::string& text : {config.columns, config.force.columns}) {
@@ -47,7 +70,7 @@ void require_stated_time(const ImportTables& tables, const MappingConfig& config
   }
 }
 
-bool begins_with_columns(const std::filesystem::path& path, std::string_view columns) {
+bool has_columns(const std::filesystem::path& path, std::string_view columns) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
   constexpr std::size_t kLongestHeader = 4096;
@@ -57,17 +80,40 @@ bool begins_with_columns(const std::filesystem::path& path, std::string_view col
   if (header.starts_with("\xEF\xBB\xBF")) header.remove_prefix(3);
   if (!split_cells(header, ',', cells)) return false;
   split_cells(columns, ',', wanted);
+  if (cells.size() != wanted.size()) return false;  // what else there is may be wanted
   return std::all_of(wanted.begin(), wanted.end(),
                      [&](std::string_view name) { return std::find(cells.begin(), cells.end(), name) != cells.end(); });
+}
+
+void require_force(const ImportTable& table) {
+  if (has_group(table.map, ColumnGroup::kForce)) return;
+  throw Error(table.table.file +
+              ": no column is a force: name it, as f=NAME[N] or f=#1[gf], or fx, fy, fz; there are " +
+              column_list(table.table));
+}
+
+// A force among the columns of the other files; those whose unit is not known are left, and named as not used.
+template <class Read>
+std::optional<ImportTable> find_force(const std::filesystem::path& imu, const std::filesystem::path& pose,
+                                      const Read& read, double imu_Hz, double pose_Hz) {
+  for (const auto& [path, rate_Hz] : {std::pair(imu, imu_Hz), std::pair(pose, pose_Hz)}) {
+    try {
+      ImportTable table = read(path, FileRole::kForce, {ColumnGroup::kTime}, rate_Hz, false);
+      if (has_group(table.map, ColumnGroup::kForce)) return table;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 bool has_fixed_columns(const ImportFiles& files) {
   constexpr std::string_view kPoses = "t_s,px_m,py_m,pz_m,qw,qx,qy,qz";
-  return !files.imu.empty() && files.gyro.empty() && files.force.empty() && begins_with_columns(files.pose, kPoses) &&
-         begins_with_columns(files.imu, "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps") &&
-         (files.object.empty() || begins_with_columns(files.object, kPoses));
+  return !files.imu.empty() && files.gyro.empty() && files.force.empty() && has_columns(files.pose, kPoses) &&
+         has_columns(files.imu, "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps") &&
+         (files.object.empty() || has_columns(files.object, kPoses));
 }
 
 std::vector<const ImportTable*> ImportTables::all() const {
@@ -88,19 +134,40 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
   if (!files.gyro.empty()) sensor.push_back(ColumnGroup::kRate);
   // A rate that is stated for one of the streams of a file is that of its rows.
   const double sensor_Hz = config.imu.rate_Hz > 0.0 ? config.imu.rate_Hz : one_file ? config.pose.rate_Hz : 0.0;
+  const auto roles_of = [&](const std::filesystem::path& path) {
+    std::vector<FileRole> out;
+    if (path == files.pose) out.push_back(FileRole::kPose);
+    if (path == imu) out.push_back(FileRole::kImu);
+    if (path == files.gyro) out.push_back(FileRole::kGyro);
+    if (path == files.force || (files.force.empty() && path == imu)) out.push_back(FileRole::kForce);
+    return out;
+  };
+  const TablesReader reader(config, limits, observer);
   ImportTables out;
-  out.pose =
-      read_import_table(files.pose, FileRole::kPose, config, times, limits, observer, one_file ? sensor_Hz : 0.0);
-  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits, observer, sensor_Hz);
-  if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits, observer);
+  const auto read = [&](const std::filesystem::path& path, FileRole role, const std::vector<ColumnGroup>& elsewhere,
+                        double same_file_Hz = 0.0, bool is_given = true) {
+    const auto roles = roles_of(path);
+    std::vector<const std::optional<ImportTable>*> earlier;
+    for (const auto* table : {&out.pose, &out.imu, &out.gyro}) {
+      if (*table && (*table)->table.file == path.string()) earlier.push_back(table);
+    }
+    return reader.read(path, role, roles, earlier, {elsewhere, same_file_Hz, {}, {}, is_given});
+  };
+  out.pose = read(files.pose, FileRole::kPose, times, one_file ? sensor_Hz : 0.0);
+  out.imu = read(imu, FileRole::kImu, sensor, sensor_Hz);
+  if (!files.gyro.empty()) out.gyro = read(files.gyro, FileRole::kGyro, times);
   if (!files.force.empty()) {
-    out.force = read_import_table(files.force, FileRole::kForce, config, times, limits, observer);
+    out.force = read(files.force, FileRole::kForce, times);
+    require_force(*out.force);
   } else if (states_force(config) || one_file) {
-    out.force = read_import_table(imu, FileRole::kForce, config, times, limits, observer, sensor_Hz);
+    out.force = read(imu, FileRole::kForce, times, sensor_Hz, false);
     if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
+  } else {
+    out.force = find_force(imu, files.pose, read, config.imu.rate_Hz, config.pose.rate_Hz);
   }
-  if (!files.object.empty())
-    out.object = read_import_table(files.object, FileRole::kPose, config, times, limits, observer);
+  if (!files.object.empty()) {
+    out.object = reader.read(files.object, FileRole::kPose, {}, {}, TableContext{times});
+  }
   require_stated_time(out, config);
   return out;
 }

@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
+#include "agree_time_units.h"
 #include "asperity/base/error.h"
 #include "asperity/import/import_mapped.h"
+#include "coverage_notes.h"
+#include "lost_poses.h"
+#include "world_up.h"
 
 namespace asperity {
 
@@ -35,6 +40,18 @@ void join_gyroscope(ImportStreams& streams, const VectorStream& gyro) {
   streams.rate = std::move(rate);
 }
 
+// Streams of one file find the same in its times.
+void leave_out_repeated(Problems& problems) {
+  Problems out;
+  for (const Problem& problem : problems) {
+    const bool is_known = std::any_of(out.begin(), out.end(), [&](const Problem& p) {
+      return p.kind == problem.kind && p.message == problem.message;
+    });
+    if (!is_known) out.push_back(problem);
+  }
+  problems = std::move(out);
+}
+
 bool has_rates(const ImportTable& table) { return has_group(table.map, ColumnGroup::kRate); }
 
 ImportStreams read_streams(const ImportTables& tables, const MappingConfig& config) {
@@ -60,6 +77,7 @@ ImportStreams read_streams(const ImportTables& tables, const MappingConfig& conf
     files.push_back(table->table.file);
     out.problems.insert(out.problems.begin(), table->table.problems.begin(), table->table.problems.end());
   }
+  leave_out_repeated(out.problems);
   return out;
 }
 
@@ -88,6 +106,10 @@ bool exchange_guessed_unit(const std::vector<ImportDoubt>& doubts, ImportTables&
       return !is_meant(column) || column.unit_why == "by its values";
     });
     if (!guessed) continue;
+    if (doubt.group == ColumnGroup::kTime) {
+      set_time_unit(tables, table, doubt.unit, "by the other sensor");
+      return true;
+    }
     for (MappedColumn& column : table.map) {
       if (!is_meant(column)) continue;
       column.unit = doubt.unit;
@@ -106,10 +128,6 @@ double overlap_s(const std::vector<std::int64_t>& a, const std::vector<std::int6
 template <class Stream>
 void move_times(Stream& stream, const ClockFit& clocks) {
   for (auto& t_ns : stream.t_ns) t_ns = clocks.imu_time_ns(t_ns);
-}
-
-std::string up_of(const ImportTables& tables, const MappingConfig& config) {
-  return config.up.empty() ? tables.pose->preset.up : config.up;
 }
 
 // The axis that points up, or all that may.
@@ -161,45 +179,6 @@ void start_near_zero(ImportedMotion& motion) {
     for (auto& t_ns : *times) t_ns -= motion.start_ns;
   }
   if (motion.clocks) motion.clocks->middle_ns -= motion.start_ns;
-}
-
-// Where a check has failed, a stated axis is used as it is, and what is estimated is an assumption.
-void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMotion& motion) {
-  motion.up = up_of(tables, config);
-  const bool doubtful = !motion.checks.doubts.empty();
-  const auto estimate = estimate_up(motion.streams);
-  constexpr double kNearAxis_rad = 0.35;  // 20°
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  if (!motion.up.empty()) {
-    up = axis_vector(motion.up, "the world's axis that points up");
-    if (!estimate) return turn_world(motion.streams.pose, up), turn_world(motion.object, up);
-    motion.up_angle_rad = std::acos(std::clamp(estimate->direction.dot(up), -1.0, 1.0));
-    if (motion.up_angle_rad > kNearAxis_rad && !doubtful) {
-      motion.checks.doubts.push_back(
-          {ColumnGroup::kRotation,
-           FileRole::kPose,
-           fmt::format(
-               "the world's {} is {} to point up, but the mean specific force in the world points {:.0f}° away from "
-               "it, along {}",
-               motion.up, config.up.empty() ? "taken by the preset" : "stated", motion.up_angle_rad * 57.29577951308232,
-               estimate->name),
-           {},
-           {{"mapping.up", estimate->name}}});
-    }
-  } else {
-    motion.up_is_estimated = true;
-    motion.up_is_assumed = doubtful || !estimate;
-    motion.up = estimate ? estimate->name : "z";
-    up = axis_vector(motion.up, "up");
-    motion.up_angle_rad = estimate ? estimate->angle_rad : 0.0;
-    // A world that no axis of points up is turned by the direction itself.
-    if (estimate && estimate->angle_rad > kNearAxis_rad) {
-      up = estimate->direction;
-      motion.up = fmt::format("({:.3f}, {:.3f}, {:.3f})", up.x(), up.y(), up.z());
-    }
-  }
-  turn_world(motion.streams.pose, up);
-  turn_world(motion.object, up);
 }
 
 constexpr const char* kEulerOrders[] = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"};
@@ -288,8 +267,11 @@ ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig&
   observer.update("import", 0.5);
   put_on_one_clock(tables, config, out);
   start_near_zero(out);
+  leave_out_frozen_poses(tables.pose->table.file, out.streams);
+  std::vector<std::string> coverage = coverage_notes(tables, out.streams);
   observer.update("import", 0.7);
   out.checks = check_streams(out.streams, units_of_tables(tables, config));
+  std::move(coverage.begin(), coverage.end(), std::back_inserter(out.checks.notes));
   check_euler_order(tables, config, out);
   compare_with_stated(config, out.checks.doubts);
   find_up(tables, config, out);
@@ -348,6 +330,7 @@ void note_offset(const ImportTables& tables, const MappingConfig& config, Import
 }  // namespace
 
 ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config, const Observer& observer) {
+  agree_time_units(tables);
   if (config.euler.empty() && tables.pose->preset.euler.empty() && reads_euler_angles(tables)) {
     tables.pose->preset.euler = guess_euler_order(tables, config, observer);
   }

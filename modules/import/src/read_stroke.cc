@@ -21,10 +21,28 @@ namespace {
 
 constexpr double kShortestStroke_s = 0.5;
 
-ImportTable read_table(const std::filesystem::path& path, FileRole role, const MappingConfig& mapping) {
+// The roles that read a file.
+std::vector<FileRole> roles_of(const std::filesystem::path& path, const StrokeFiles& files) {
+  std::vector<FileRole> out;
+  if (files.imu.empty() || std::find(files.imu.begin(), files.imu.end(), path) != files.imu.end())
+    out.push_back(FileRole::kImu);
+  if (path == files.pose) out.push_back(FileRole::kPose);
+  if (path == files.force || files.force.empty()) out.push_back(FileRole::kForce);
+  return out;
+}
+
+ImportTable read_table(const std::filesystem::path& path, FileRole role, const MappingConfig& mapping,
+                       const StrokeFiles& files, const std::vector<ImportTable>& tables) {
   // Each file has its own columns: what is stated for all may be in another.
-  const std::vector<ColumnGroup> elsewhere{ColumnGroup::kTime,         ColumnGroup::kPosition, ColumnGroup::kRotation,
-                                           ColumnGroup::kAcceleration, ColumnGroup::kRate,     ColumnGroup::kForce};
+  TableContext context{{ColumnGroup::kTime, ColumnGroup::kPosition, ColumnGroup::kRotation, ColumnGroup::kAcceleration,
+                        ColumnGroup::kRate, ColumnGroup::kForce}};
+  context.others = roles_of(path, files);
+  std::erase(context.others, role);
+  for (const ImportTable& other : tables) {
+    if (other.table.file == path.string()) context.earlier.push_back(&other);
+  }
+  context.is_given = role != FileRole::kForce || path == files.force;
+  context.all_axes = false;
   DelimitedTable table =
       read_delimited(read_file(path, ReadLimits{}.csv_bytes), path.string(), mapping_of(mapping, role).section);
   for (const Problem& problem : table.problems) {
@@ -32,7 +50,7 @@ ImportTable read_table(const std::filesystem::path& path, FileRole role, const M
     if (problem.kind == "further_table" && table.columns.size() == 1)
       throw Error(problem.message + "; a stroke's column has numbers only");
   }
-  return map_table(std::move(table), role, mapping, elsewhere);
+  return map_table(std::move(table), role, mapping, context);
 }
 
 // A column that names no quantity is what the file was given for, if there is no other.
@@ -120,7 +138,7 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
   StrokeAcceleration acceleration;
   for (const auto& path : imu) {
     const MappingConfig own = files.imu.empty() ? with_rate(mapping, FileRole::kImu, FileRole::kPose) : mapping;
-    out.tables.push_back(read_table(path, FileRole::kImu, own));
+    out.tables.push_back(read_table(path, FileRole::kImu, own, files, out.tables));
     take_only_column(out.tables.back(), "ax", "m/s2");
     add_stroke_acceleration(out.tables.back(), out.tables.size() - 1, acceleration, stroke.problems);
   }
@@ -136,7 +154,8 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
   StrokePath path;
   if (!files.pose.empty()) {
     ImportTable table = read_table(files.pose, FileRole::kPose,
-                                   files.imu.empty() ? with_rate(mapping, FileRole::kPose, FileRole::kImu) : mapping);
+                                   files.imu.empty() ? with_rate(mapping, FileRole::kPose, FileRole::kImu) : mapping,
+                                   files, out.tables);
     if (has_group(table.map, ColumnGroup::kPosition) || !files.imu.empty()) {
       path = read_stroke_path(table, acceleration.start_ns, stroke.problems);
       for (const StrokeSeries& axis : path.axes) common.take(table, axis);
@@ -153,7 +172,8 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
     const FileRole given = !files.force.empty()                        ? FileRole::kForce
                            : file == files.pose && !files.pose.empty() ? FileRole::kPose
                                                                        : FileRole::kImu;
-    ImportTable table = read_table(file, FileRole::kForce, with_rate(mapping, FileRole::kForce, given));
+    ImportTable table =
+        read_table(file, FileRole::kForce, with_rate(mapping, FileRole::kForce, given), files, out.tables);
     if (!files.force.empty()) take_only_column(table, "f", "N");
     if (!has_group(table.map, ColumnGroup::kForce)) {
       if (files.force.empty()) continue;

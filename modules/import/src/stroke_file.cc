@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -158,6 +159,23 @@ Json write_stroke(const std::filesystem::path& folder, const Stroke& stroke, con
 bool is_stroke_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(folder / "stroke.json", ignored);
+}
+
+std::string source_beyond(const std::filesystem::path& folder, const std::vector<StrokeOrigin>& sources) {
+  constexpr std::uint64_t kLargest_bytes = 1 << 20;
+  try {
+    const Json json = parse_json(read_file(folder / "stroke.json", kLargest_bytes));
+    for (const Json& old : json.at("sources")) {
+      const std::string name = old.at("file").get<std::string>();
+      const bool is_there = std::any_of(sources.begin(), sources.end(), [&](const StrokeOrigin& source) {
+        return source.file == name && old.at("crc32") == source.crc32;
+      });
+      if (!is_there) return "a stroke of " + printable(name, 80);
+    }
+    return "";
+  } catch (const Error&) {
+    return "what another command wrote";
+  }
 }
 
 Stroke read_stroke_folder(const std::filesystem::path& folder, const ReadLimits& limits) {

@@ -14,10 +14,9 @@ namespace asperity {
 namespace {
 
 constexpr double kLowestRate_Hz = 200.0, kSpeedHalf_s = 0.04;
-constexpr double kLargestGap = 10.0;      // intervals
-constexpr double kSameRate = 0.01;        // of the axes of an accelerometer
-constexpr double kMostDuplicates = 0.01;  // of the rows
-constexpr double kUneven = 0.1;           // of the interval, RMS
+constexpr double kLargestGap = 10.0;  // intervals
+constexpr double kSameRate = 0.01;    // of the axes of an accelerometer
+constexpr double kUneven = 0.1;       // of the interval, RMS
 
 StrokeSeries series_of(const std::vector<std::int64_t>& t_ns, std::vector<double> value, std::int64_t from_ns) {
   StrokeSeries out;
@@ -71,12 +70,6 @@ void add_stroke_acceleration(const ImportTable& table, std::size_t index, Stroke
   }
   if (out.axes.size() == before)
     throw Error(table.table.file + ": no column is an acceleration: name it, as ax=NAME[m/s2] or ax=#1[g]");
-  for (const Problem& problem : problems) {
-    if (problem.kind != "duplicate_time" ||
-        static_cast<double>(problem.count) <= kMostDuplicates * static_cast<double>(table.table.rows()))
-      continue;
-    throw Error(problem.message + ": its clock is too coarse for its rate; state the rate instead of the times");
-  }
 }
 
 void check_stroke_acceleration(const std::vector<ImportTable>& tables, StrokeAcceleration& out, Problems& problems) {

@@ -10,6 +10,7 @@
 #include "add/surface_look.h"
 #include "asperity/base/base64.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/recording/recording_source.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/texture/texture_file.h"
 #include "config_fields.h"
@@ -166,7 +167,7 @@ class AddPage : public Page {
           observer.update("reading", 0.0);
           const Recording recording = import_recording(choice);
           observer.update("writing", 0.6);
-          OutputFolder folder(target, is_replaceable_recording);
+          OutputFolder folder(target, replaceable_by(source_of(recording)));
           write_recording(folder.path(), recording);
           put_in_place(folder, name, hub);
           return Json{{"recording", name}, {"probe_rows", recording.probe.size()}, {"poses", recording.tracker.size()}};

@@ -61,4 +61,9 @@ MappedColumn find_stated_column(const StatedColumn& stated, const DelimitedTable
 // The map as --columns takes it, with numbers of columns where names would be ambiguous.
 std::string columns_text(const ColumnMap& map, const DelimitedTable& table);
 
+// Columns by number and name for messages, "#1 'clock', #3 'X'": these, by their numbers from 0, or all. Beyond 24 they
+// are counted.
+std::string column_list(const DelimitedTable& table, const std::vector<std::size_t>& columns);
+std::string column_list(const DelimitedTable& table);
+
 }  // namespace asperity

@@ -20,7 +20,7 @@ struct ImportFiles {
   std::filesystem::path pose, imu, gyro, force, object;
 };
 
-// Both files begin with the columns that read_imu_pose takes, and there is no other: nothing has to be mapped.
+// Both files have the columns that read_imu_pose takes, and there is no other column or file: nothing has to be mapped.
 bool has_fixed_columns(const ImportFiles& files);
 
 // The files' tables with what their columns mean.

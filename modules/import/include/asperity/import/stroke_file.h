@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "asperity/import/stroke.h"
@@ -16,6 +17,9 @@ Json write_stroke(const std::filesystem::path& folder, const Stroke& stroke, con
 
 // True for a folder with a stroke.json.
 bool is_stroke_folder(const std::filesystem::path& folder);
+
+// What a folder holds that was not made of these files, as "a stroke of acc.csv"; "" for a stroke of these files alone.
+std::string source_beyond(const std::filesystem::path& folder, const std::vector<StrokeOrigin>& sources);
 
 // The stroke of a folder. Throws Error naming file, line and column for what write_stroke does not write.
 Stroke read_stroke_folder(const std::filesystem::path& folder, const ReadLimits& limits = {});
