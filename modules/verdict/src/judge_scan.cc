@@ -15,7 +15,9 @@ namespace {
 
 constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
-constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
+constexpr double kInvisible_snr = 2.0;  // 1, and the expected noise is known to a factor of about 2 in power
+// With positions as uncertain as this, r is below 0.6 in about one scan of twenty (docs/verdicts-scans.md).
+constexpr double kMisplaced_correlation = 0.75;
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
 constexpr double kVibration_share = 0.1;   // of the texture's power
 constexpr double kLargestLean_deg = 45.0;  // as hands hold a probe
@@ -85,7 +87,7 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
   const double left = seen > by_noise ? seen : by_noise;
   if (in_place * left < limit && !(e.expected_correlation >= kSeen_correlation) && in_place < left) {
     out.push_back(make_verdict(
-        "positions_uncertain",
+        in_place * left < kMisplaced_correlation ? "positions_uncertain" : "positions_doubtful",
         fmt::format("the path's length has an error that moves heights by up to {:.2g} mm (standard deviation) from "
                     "their positions: the expected correlation with the surface is {:.2f}. Roughness and the ratio of "
                     "lengths are not affected",

@@ -58,6 +58,8 @@ constexpr VerdictCode kCodes[] = {
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
     {"positions_uncertain", kInvalid,
      "scan a shorter stroke, press less, or let the force rise along the stroke, which shows how soft the object is"},
+    {"positions_doubtful", kLimited,
+     "scan a shorter stroke, press less, or let the force rise along the stroke, which shows how soft the object is"},
     {"normals_doubtful", kInvalid,
      "hold the probe within 45° of the normal, scan with a steady force, and check the calibration of the tip"},
     {"error_unknown", kInvalid, "use the method `fused`"},

@@ -253,6 +253,12 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.stretch_correlation = 0.735;
          e.end_place_sigma_m = 0.61e-3;
        }},
+      {"positions_doubtful", "the expected correlation with the surface is 0.78",
+       [](ScanEvidence& e) {
+         e.snr = 25.0;
+         e.expected_correlation = 0.78;
+         e.stretch_correlation = 0.8;
+       }},
       {"vibration",
        "a vibration of 60.02 Hz that is not of the surface is in the heights: 16 of the texture's 50 µm RMS",
        [](ScanEvidence& e) {
