@@ -7,6 +7,7 @@
 #include "asperity/base/units.h"
 #include "check_lengths.h"
 #include "check_rotation.h"
+#include "pose_at.h"
 
 namespace asperity {
 

@@ -88,8 +88,9 @@ Coverage measure_coverage(const Profile& profile) {
   if (last == first) return out;
   // Where the heights reach an end of the path, up to it: a grid's points alone are too short by a spacing or more.
   const double reach_m = 2.0 * profile.spacing_m;
-  const double from_m = profile.s_m[first] - profile.from_m < reach_m ? profile.from_m : profile.s_m[first];
-  const double to_m = profile.to_m - profile.s_m[last - 1] < reach_m ? profile.to_m : profile.s_m[last - 1];
+  const double first_m = profile.s_m[first], last_m = profile.s_m[last - 1];
+  const double from_m = first_m - profile.from_m < reach_m + profile.crept_first_m ? profile.from_m : first_m;
+  const double to_m = profile.to_m - last_m < reach_m + profile.crept_last_m ? profile.to_m : last_m;
   out.length_m = to_m - from_m;
   out.covered = static_cast<double>(covered) / static_cast<double>(last - first);
   return out;

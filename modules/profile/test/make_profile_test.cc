@@ -77,6 +77,22 @@ TEST(MakeProfile, KnowsWhereThePathEndsBetweenItsPoints) {
   EXPECT_DOUBLE_EQ(profile.to_m, s_m.back());
 }
 
+// After the stroke the tip creeps by 0.15 mm within half a second, while the height drifts by 75 µm.
+TEST(MakeProfile, ACreepAtThePathsEndHasNoHeights) {
+  std::vector<double> t_s, s_m;
+  for (int i = 0; i <= 5000; ++i) {
+    t_s.push_back(i / 2000.0);
+    s_m.push_back(t_s.back() < 2.0 ? 0.025 * t_s.back() : 0.05 + 0.3e-3 * (t_s.back() - 2.0));
+  }
+  Flat flat = make_flat(t_s, s_m, sine(5e-6, 0.5e-3));
+  for (std::size_t i = 4000; i < t_s.size(); ++i) flat.motion.p_world_tip_m[i].z() -= 150e-6 * (t_s[i] - 2.0);
+  const Profile profile = make_profile(flat.motion, flat.base, {}, {});
+  EXPECT_NEAR(profile.to_m, s_m.back(), 1e-9);
+  EXPECT_NEAR(profile.crept_last_m, 0.15e-3, 0.01e-3);
+  EXPECT_EQ(profile.crept_first_m, 0.0);
+  for (const double height_m : profile.height_m) EXPECT_LT(std::abs(height_m), 6e-6);
+}
+
 TEST(MakeProfile, DetailBeyondTheSpacingDoesNotFold) {
   // 32 cycles/mm would fold to 8 at 40 points a mm.
   const Flat flat = make_even(20000.0, 0.02, 1.0, sine(10e-6, 1e-3 / 32.0));

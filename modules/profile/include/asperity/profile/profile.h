@@ -11,6 +11,8 @@ struct Profile {
   // The ends of the path in contact, between which the points lie; nan: not known.
   double from_m = std::numeric_limits<double>::quiet_NaN();
   double to_m = std::numeric_limits<double>::quiet_NaN();
+  // Of it at either end, where the tip crept: the path is that long, but has no heights there (make_profile.h).
+  double crept_first_m = 0.0, crept_last_m = 0.0;
   std::vector<double> s_m;              // along the base path (erratum 23)
   std::vector<double> height_m;         // along the outward normal, only the base shape removed
   std::vector<double> sigma_m;          // standard deviation of height_m; nan if the method gives none
