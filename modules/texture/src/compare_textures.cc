@@ -10,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/signal/resample.h"
 #include "asperity/signal/spectrum.h"
+#include "asperity/signal/student.h"
 #include "asperity/signal/zero_phase.h"
 #include "difference_of_pieces.h"
 
@@ -119,7 +120,7 @@ void judge(Difference& d, double jnd_percent, double uncertainty_percent) {
 constexpr double kOverlap = 1.0 + 2.0 / 36.0;
 
 // Of RMS values by the variances of segments: half the relative interval, times b/a. Two lines of the same numbers
-// differ by nothing; of one segment alone, Gaussian heights in n independent bins are known to √(1/n).
+// differ by nothing; of one segment alone, the power of Gaussian heights in n independent bins is known to √(1/n).
 double rms_uncertainty_percent(const Spectrum& a, const Spectrum& b, double low, double high, bool identical) {
   if (identical) return 0.0;
   const PiecesOfLines of_a = a.variance(low, high), of_b = b.variance(low, high);
@@ -128,9 +129,10 @@ double rms_uncertainty_percent(const Spectrum& a, const Spectrum& b, double low,
   const double rms_ratio = std::sqrt(mean_b / mean_a);
   const double interval = difference_interval(of_a, of_b, kOverlap);
   if (std::isfinite(interval)) return 50.0 * rms_ratio * interval / mean_b;
-  constexpr double kNormal95 = 1.96;
-  const auto deviation = [&](const Spectrum& s) { return 1.0 / std::max(1.0, 0.5 * (high - low) / s.step); };
-  return kNormal95 * 50.0 * rms_ratio * std::sqrt(deviation(a) + deviation(b));
+  // One segment: Hann's window uses half of it, in which about half of the bins are independent.
+  const auto bins = [&](const Spectrum& s) { return std::max(1.0, 0.25 * (high - low) / s.step); };
+  const double n_a = bins(a), n_b = bins(b);
+  return 50.0 * rms_ratio * student_quantile(0.95, std::min(n_a, n_b)) * std::sqrt(1.0 / n_a + 1.0 / n_b);
 }
 
 const PiecesOfLines& pieces_of(const ComparedSurface& surface, const std::string& name) {
