@@ -43,7 +43,7 @@ class CalibrateForceCommand : public CalibrateCommand {
                  {"residual", fit.force.residual_newton, std::nan(""),
                   fmt::format("N, {} degrees of freedom", fit.degrees_of_freedom)}};
     out.notes.push_back(
-        fmt::format("the counts are taken as exact; rounding them adds {:.2g} N", fit.counts_error_newton));
+        fmt::format("the counts are rounded by {:.2g} N, which the standard errors hold", fit.counts_error_newton));
     out.verdict = fit.verdict;
     out.store = [force = fit.force](Calibration& calibration) {
       const auto axis = calibration.force.axis_in_marker;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/import/stroke_file.h"
@@ -21,6 +22,7 @@
 #include "json_of.h"
 #include "option_units.h"
 #include "stroke_input.h"
+#include "units_json.h"
 
 namespace asperity::app {
 
@@ -48,14 +50,22 @@ struct CompareSettings {
 constexpr const char* kSame = "same to the hand";
 constexpr const char* kNoticeable = "noticeable";
 
-const char* verdict_of(bool noticeable) { return noticeable ? kNoticeable : kSame; }
+const char* word_of(HandVerdict verdict) {
+  return verdict == HandVerdict::kSame ? kSame : verdict == HandVerdict::kNoticeable ? kNoticeable : "not determined";
+}
 
+Json noticeable_json(HandVerdict verdict) {
+  return verdict == HandVerdict::kUndetermined ? Json(nullptr) : Json(verdict == HandVerdict::kNoticeable);
+}
+
+// Without a threshold there is no verdict.
 Json to_json(const Difference& d) {
   return {{"a", number_or_null(d.a)},
           {"b", number_or_null(d.b)},
           {"percent", number_or_null(d.percent)},
+          {"uncertainty_percent", number_or_null(d.uncertainty_percent)},
           {"jnd_percent", number_or_null(d.jnd_percent)},
-          {"verdict", verdict_of(d.noticeable)}};
+          {"verdict", std::isfinite(d.jnd_percent) ? Json(word_of(d.verdict)) : Json(nullptr)}};
 }
 
 // A value that is not known, or a percentage of 0, is printed as a dash; one of next to nothing has a bound.
@@ -69,9 +79,9 @@ std::string cell(const char* form, double value, std::string_view unit_text, std
 }
 
 std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
-  return fmt::format("{:<22} {} {} {} {}  {}\n", name, cell("{:.5g}", d.a * unit, "", 11),
+  return fmt::format("{:<22} {} {} {} {} {}  {}\n", name, cell("{:.5g}", d.a * unit, "", 11),
                      cell("{:.5g}", d.b * unit, "", 11), cell("{:+.2f}", d.percent, " %", 11),
-                     cell("{:.3g}", d.jnd_percent, " %", 9), note);
+                     cell("{:.2g}", d.uncertainty_percent, " %", 9), cell("{:.3g}", d.jnd_percent, " %", 9), note);
 }
 
 class TextureCompareCommand : public Command {
@@ -103,31 +113,40 @@ class TextureCompareCommand : public Command {
       report_vibrations(observer);
       return kDone;
     }
-    const TextureComparison c = compare_textures(surface_of(a_, observer), surface_of(b_, observer), settings_.compare);
+    std::vector<FileUnits> units;
+    const ComparedSurface a = surface_of(a_, units, observer), b = surface_of(b_, units, observer);
+    const TextureComparison c = compare_textures(a, b, settings_.compare);
     Json out;
     out["format"] = "asperity-texture-comparison";
     out["version"] = 1;
     out["a"] = a_;
     out["b"] = b_;
-    out["verdict"] = verdict_of(c.noticeable);
-    out["noticeable"] = c.noticeable;
+    out["verdict"] = word_of(c.verdict);
+    out["noticeable"] = noticeable_json(c.verdict);
+    out["units"] = units_json(units);
+    out["other_shape"] = c.other_shape;
     out["band_cycles_per_mm"] = {c.low_cycles_per_mm, c.high_cycles_per_mm};
     out["roughness"] = Json::object();
     for (const auto& [name, difference] : c.roughness) out["roughness"][name] = to_json(difference);
     out["mean_frequency_per_mm"] = to_json(c.frequency_per_mm);
     out["bands"] = Json::array();
+    out["bands_left_out"] = Json::array();
     for (const auto& band : c.bands) {
+      if (!band.is_resolved) {
+        out["bands_left_out"].push_back({band.low_cycles_per_mm, band.high_cycles_per_mm});
+        continue;
+      }
       Json one = to_json(band.rms_m);
       one["low_cycles_per_mm"] = band.low_cycles_per_mm;
       one["high_cycles_per_mm"] = band.high_cycles_per_mm;
-      one["uncertainty_percent"] = number_or_null(band.uncertainty_percent);
-      one["felt"] = band.is_compared;
+      one["felt"] = band.counts();
+      if (!band.counts()) one["verdict"] = kSame;
       out["bands"].push_back(one);
     }
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
-    say_table(c);
+    say_table(c, units_lines(units));
     return kDone;
   }
 
@@ -190,12 +209,6 @@ class TextureCompareCommand : public Command {
     return fmt::format("{:.3g} {} in the mean", mean * unit, name);
   }
 
-  static const char* word_of(VibrationVerdict verdict) {
-    return verdict == VibrationVerdict::kSame         ? kSame
-           : verdict == VibrationVerdict::kNoticeable ? kNoticeable
-                                                      : "not determined";
-  }
-
   void report_vibrations(const Observer& observer) {
     const bool a_recorded = is_stroke_folder(a_), b_recorded = is_stroke_folder(b_);
     Side a, b;
@@ -210,8 +223,7 @@ class TextureCompareCommand : public Command {
     out["a"] = a_;
     out["b"] = b_;
     out["verdict"] = word_of(c.verdict);
-    out["noticeable"] =
-        c.verdict == VibrationVerdict::kUndetermined ? Json(nullptr) : Json(c.verdict == VibrationVerdict::kNoticeable);
+    out["noticeable"] = noticeable_json(c.verdict);
     out["band_Hz"] = {c.low_Hz, c.high_Hz};
     out["a_mps2"] = c.a_mps2;
     out["b_mps2"] = c.b_mps2;
@@ -242,7 +254,7 @@ class TextureCompareCommand : public Command {
     say(text + word_of(c.verdict) + "\n");
   }
 
-  ComparedSurface surface_of(const std::string& file, const Observer& observer) const {
+  ComparedSurface surface_of(const std::string& file, std::vector<FileUnits>& units, const Observer& observer) const {
     ComparedSurface surface;
     std::vector<std::vector<double>> lines;
     if (is_texture_file(file)) {
@@ -253,7 +265,9 @@ class TextureCompareCommand : public Command {
       lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
     } else {
       Problems problems;
-      const Heights heights = read_heights(file, settings_.input, &problems);
+      HeightsOrigin origin;
+      const Heights heights = read_heights(file, settings_.input, &problems, &origin);
+      units.push_back({file, origin.units});
       for (const Problem& problem : problems) print_error(printable(problem.message, 600));
       if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
         surface.spacing_m = profile->spacing_m;
@@ -273,22 +287,54 @@ class TextureCompareCommand : public Command {
       surface.lines_m.push_back(band_limited_heights(line, surface.spacing_m, settings_.compare));
     }
     surface.roughness = roughness_of(surface.lines_m, surface.spacing_m);
+    measure_pieces(surface);
     return surface;
   }
 
-  void say_table(const TextureComparison& c) const {
-    std::string text = fmt::format("{:<22} {:>11} {:>11} {:>11} {:>9}\n", "", "A", "B", "difference", "noticed");
+  // Of the length of the spectrum's segments.
+  void measure_pieces(ComparedSurface& surface) const {
+    const auto size =
+        static_cast<std::size_t>(std::max(2.0, std::round(1e-3 * settings_.compare.segment_mm / surface.spacing_m)));
+    for (const auto& line : surface.lines_m) {
+      for (const auto& [name, whole] : surface.roughness) surface.roughness_of_pieces[name].emplace_back();
+      for (std::size_t start = 0; start + size <= line.size(); start += size) {
+        const auto first = line.begin() + static_cast<std::ptrdiff_t>(start);
+        const auto values =
+            roughness_of({std::vector<double>(first, first + static_cast<std::ptrdiff_t>(size))}, surface.spacing_m);
+        for (auto& [name, pieces] : surface.roughness_of_pieces) {
+          const auto value = values.find(name);
+          pieces.back().push_back(value == values.end() ? kNan : value->second);
+        }
+      }
+    }
+  }
+
+  void say_table(const TextureComparison& c, const std::string& units) const {
+    std::string text =
+        units + fmt::format("{:<22} {:>11} {:>11} {:>11} {:>9} {:>9}\n", "", "A", "B", "difference", "±", "noticed");
     for (const auto& [name, d] : c.roughness) {
       const bool length = name.ends_with("_m");
       text += format_row(length ? name.substr(0, name.size() - 2) + " µm" : name, d, length ? 1e6 : 1.0,
-                         name == "Rq_m" || name == "RSm_m" ? verdict_of(d.noticeable) : "");
+                         std::isfinite(d.jnd_percent) ? word_of(d.verdict) : "");
     }
     text += format_row("mean cycles/mm", c.frequency_per_mm, 1.0, "");
+    std::string left_out;
     for (const auto& band : c.bands) {
-      text += format_row(fmt::format("{:.3g}-{:.3g} /mm, RMS µm", band.low_cycles_per_mm, band.high_cycles_per_mm),
-                         band.rms_m, 1e6, band.is_compared ? verdict_of(band.rms_m.noticeable) : "below the threshold");
+      const std::string name = fmt::format("{:.3g}-{:.3g} /mm", band.low_cycles_per_mm, band.high_cycles_per_mm);
+      if (!band.is_resolved) {
+        left_out += (left_out.empty() ? "" : ", ") + name;
+        continue;
+      }
+      text += format_row(name + ", RMS µm", band.rms_m, 1e6,
+                         band.counts() ? word_of(band.rms_m.verdict) : "below the threshold");
     }
-    say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, verdict_of(c.noticeable)));
+    if (!left_out.empty())
+      text += fmt::format("note: {} left out: the heights are shorter than two of its longest waves\n", left_out);
+    if (c.other_shape)
+      text +=
+          "note: Rsk or Rku differ: hills and pits have other shapes. No threshold of perception is known for it; the "
+          "verdict is of the RMS heights and RSm\n";
+    say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, word_of(c.verdict)));
   }
 
   std::string a_;

@@ -30,6 +30,7 @@
 #include "commands.h"
 #include "option_units.h"
 #include "stroke_input.h"
+#include "units_json.h"
 
 namespace asperity::app {
 
@@ -170,7 +171,8 @@ class TextureFitCommand : public Command {
     input.whole_path = settings_.fit.whole_path;
     input.read_heights = [&](const std::vector<std::string>& files) {
       doubtful.clear();  // files may be read twice
-      HeightProfile profile = read_strokes(files, settings_.input, &doubtful);
+      units_.clear();
+      HeightProfile profile = read_strokes(files, settings_.input, &doubtful, &units_);
       return HeightLine{std::move(profile.height_m), profile.spacing_m};
     };
     input.pitch_m = [&](const std::vector<std::string>& files) {
@@ -179,7 +181,9 @@ class TextureFitCommand : public Command {
       return found.periodic ? found.pitch_m : 0.0;
     };
     input.read_areal_samples = [&](const std::vector<std::string>& files) {
-      return asperity::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm, &doubtful);
+      units_.clear();
+      return asperity::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm, &doubtful,
+                                          &units_);
     };
     input.read_series = [](const std::string& file) { return asperity::app::read_series(file); };
     input.read_recording_or_series = [](const std::string& file) {
@@ -263,6 +267,7 @@ class TextureFitCommand : public Command {
     if (texture.height_offset_m) out["lift_m"] = *texture.height_offset_m;
     out["fit"] = report;
     out["roughness"] = texture.roughness;
+    out["units"] = units_json(units_);
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
@@ -282,7 +287,7 @@ class TextureFitCommand : public Command {
                           100.0 * error["variance_error"].get<double>(), 100.0 * error["spectrum_error"].get<double>());
     }
     if (texture.height_offset_m) text += fmt::format(", height offset {:.4g} µm", *texture.height_offset_m * 1e6);
-    text += "\n";
+    text += "\n" + units_lines(units_);
     for (const auto& problem : fitted.problems) text += "note: " + problem.message + "\n";
     say(text);
   }
@@ -293,6 +298,7 @@ class TextureFitCommand : public Command {
   std::string spacing_;
   std::string name_;
   bool whole_path_ = false;
+  std::vector<FileUnits> units_;
   TextureFitSettings settings_;
 };
 

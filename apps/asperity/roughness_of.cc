@@ -20,12 +20,14 @@
 #include "asperity/import/stroke_file.h"
 #include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
+#include "asperity/profile/rounding_floor.h"
 #include "asperity/profile/setting_class.h"
 #include "asperity/session/texture_input.h"
 #include "command.h"
 #include "roughness_figure.h"
 #include "roughness_tables.h"
 #include "stroke_input.h"
+#include "units_json.h"
 
 namespace asperity::app {
 
@@ -55,9 +57,12 @@ class Measurement {
 
   RoughnessFound measure() const {
     Problems problems;
-    if (file_ == "-")
-      return with(of_heights(parse_heights(read_standard_input(), "standard input", settings_.input, &problems)),
-                  problems);
+    HeightsOrigin origin;
+    if (file_ == "-") {
+      const Heights heights =
+          parse_heights(read_standard_input(), "standard input", settings_.input, &problems, &origin);
+      return with(of_heights(heights, origin), problems);
+    }
     if (is_stroke_folder(file_)) {
       refuse_noise("a stroke");
       return of_stroke();
@@ -66,14 +71,17 @@ class Measurement {
       refuse_class();
       AreaHeights area = read_area_heights(file_, settings_.areal);
       if (settings_.noise.rms_um > 0.0) area.noise = stated_noise();
-      return of_map(area);
+      origin.units.height = {1.0, UnitOrigin::kFile};
+      origin.arithmetic_rms_m = arithmetic_rms_m(area.map.height_m);
+      return of_map(area, origin);
     }
     std::error_code error;
     const fs::path profile = fs::path(file_) / "profile.csv";
     if (fs::is_directory(file_, error) && !fs::exists(profile, error))
       throw Error(printable(file_, 200) + ": is a folder without a profile.csv; name the file, or a result of process");
     const fs::path read = fs::is_directory(file_, error) ? profile : fs::path(file_);
-    return with(of_heights(read_heights(read, settings_.input, &problems)), problems);
+    const Heights heights = read_heights(read, settings_.input, &problems, &origin);
+    return with(of_heights(heights, origin), problems);
   }
 
  private:
@@ -87,13 +95,13 @@ class Measurement {
     return found;
   }
 
-  RoughnessFound of_heights(const Heights& heights) const {
+  RoughnessFound of_heights(const Heights& heights, const HeightsOrigin& origin) const {
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       refuse_noise("a profile");
-      return of_profile(*profile);
+      return of_profile(*profile, origin);
     }
     refuse_class();
-    return of_map({std::get<ArealMap>(heights), stated_noise()});
+    return of_map({std::get<ArealMap>(heights), stated_noise()}, origin);
   }
 
   ArealNoise stated_noise() const {
@@ -161,6 +169,14 @@ class Measurement {
                   "ISO 21920 use --class auto\n");
   }
 
+  static std::string note_line(const std::string& note) { return note.empty() ? note : "note        " + note + "\n"; }
+
+  static Json notes_json(const std::string& note) {
+    Json out = Json::array();
+    if (!note.empty()) out.push_back(note);
+    return out;
+  }
+
   static std::string noise_line(const ArealNoise& noise) {
     if (!noise.is_known()) return "intervals   not determined: the file does not state its noise; give --noise\n";
     return fmt::format("noise       {:.3g} µm RMS, {}\n", 1e6 * noise.rms_m,
@@ -169,23 +185,27 @@ class Measurement {
                            : std::string("independent from height to height"));
   }
 
-  RoughnessFound of_profile(const HeightProfile& profile) const {
+  RoughnessFound of_profile(const HeightProfile& profile, const HeightsOrigin& origin) const {
     std::string class_name;
     const RoughnessConfig config = filters_for(profile, class_name);
     constexpr double kCutoff_cycles_per_mm = 0.1;  // of a profile.csv's texture, unless somebody has changed it
     const TextureNoise noise =
         noise_of_sigma(profile.height_m, profile.sigma_m, profile.spacing_m, kCutoff_cycles_per_mm);
     // The file's heights as they are: what noise could have added is in the error, not taken off.
-    const RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, config);
+    RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, config);
+    const std::string rounding = apply_rounding_floor(origin, r);
     const RoughnessResult cleaned = measure_roughness_under_noise(profile.height_m, profile.spacing_m, noise, config);
     std::vector<PrintedParameter> parameters;
     for (const RoughnessParameter& p : kRoughnessParameters) {
       const double error = std::hypot(cleaned.standard_error.*p.value, cleaned.*p.value - r.*p.value);
       parameters.push_back({std::string(p.key), r.*p.value, p.is_length, error});
     }
-    const ProfileTexture texture =
+    ProfileTexture texture =
         measure_profile_texture(profile.height_m, profile.spacing_m, config, settings_.material, noise);
+    apply_rounding_floor(origin, texture);
     Json out = begin("profile");
+    out["units"] = units_json(origin.units);
+    out["notes"] = notes_json(rounding);
     out["filters"] = {{"setting_class", class_name.empty() ? Json(nullptr) : Json(class_name)},
                       {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
                       {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)},
@@ -205,17 +225,22 @@ class Measurement {
         std::move(out),
         fmt::format("{:.6g} mm, {} heights {:.6g} µm apart, {} missing\n", r.length_m * 1e3, r.samples,
                     profile.spacing_m * 1e6, r.missing) +
+            "units       " + units_text(origin.units) + "\n" + note_line(rounding) +
             filter_line(profile, config, class_name) +
             (noise.added_rms_m > 0.0 ? "" : "intervals   not determined: the file does not state its noise\n") +
             to_table(parameters) + "\n" + to_table(texture),
         with_figure_ ? profile_figure(profile, config) : Figure{});
   }
 
-  RoughnessFound of_map(const AreaHeights& heights) const {
+  RoughnessFound of_map(const AreaHeights& heights, const HeightsOrigin& origin) const {
     const ArealMap& map = heights.map;
     const ArealTextureConfig& config = settings_.areal;
-    const ArealTextureResult r = measure_areal_texture(map, config, heights.noise);
+    ArealTextureResult r = measure_areal_texture(map, config, heights.noise);
+    const std::string rounding = apply_rounding_floor(origin, r);
+    if (!rounding.empty()) r.standard_error = {};
     Json out = begin("areal");
+    out["units"] = units_json(origin.units);
+    out["notes"] = notes_json(rounding);
     out["columns"] = map.columns;
     out["rows"] = map.rows;
     out["x_spacing_m"] = map.x_spacing_m;
@@ -238,7 +263,8 @@ class Measurement {
     return found(std::move(out),
                  fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
                              map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +
-                     filters + noise_line(heights.noise) + to_table(r),
+                     "units       " + units_text(origin.units) + "\n" + note_line(rounding) + filters +
+                     noise_line(heights.noise) + to_table(r),
                  with_figure_ ? map_figure(map, config) : Figure{});
   }
 

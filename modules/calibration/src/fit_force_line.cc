@@ -114,6 +114,21 @@ std::vector<std::size_t> find_saturated(const ForcePoints& points, double share)
   return out;
 }
 
+// Loads that are at least `share` of the forces' span apart.
+std::size_t count_loads(const ForcePoints& points, double share) {
+  std::vector<double> force_N = points.force_N;
+  std::sort(force_N.begin(), force_N.end());
+  const double apart_N = share * (force_N.back() - force_N.front());
+  std::size_t loads = 1;
+  double last_N = force_N.front();
+  for (const double one_N : force_N) {
+    if (one_N - last_N <= apart_N) continue;
+    ++loads;
+    last_N = one_N;
+  }
+  return loads;
+}
+
 std::string places(const std::vector<std::size_t>& at) {
   std::string out;
   for (std::size_t k = 0; k < at.size() && k < 10; ++k) out += (k == 0 ? "" : ", ") + std::to_string(at[k] + 1);
@@ -135,6 +150,9 @@ CalibrationVerdict judge_force_line(const ForceLineFit& fit, double span_N, cons
     out.add("force_saturated",
             fmt::format("points {} share one end of the counts at different forces: the sensor is saturated there",
                         places(fit.saturated)));
+  }
+  if (fit.loads < 3) {
+    out.add("force_few_loads", "all points are at two loads, which cannot show whether the sensor is straight");
   }
   if (fit.bend_probability < config.significance && fit.bend_newton > config.linearity_share * span_N) {
     out.add("force_not_straight", fmt::format("the sensor is not linear: a parabola deviates from the line by {:.2g} "
@@ -168,19 +186,21 @@ ForceLineFit fit_force_line(const ForcePoints& points, const FitForceLineConfig&
   fit.degrees_of_freedom = static_cast<int>(points.size()) - 2;
   fit.force.newton_per_count = slope_N / x.spread;
   fit.force.offset_newton = mean_N - fit.force.newton_per_count * x.mean;
-  const double s_N = std::sqrt(residual_N.squaredNorm() / (n - 2.0));
-  fit.force.residual_newton = s_N;
+  fit.force.residual_newton = std::sqrt(residual_N.squaredNorm() / (n - 2.0));
+  fit.counts_error_newton = std::abs(fit.force.newton_per_count) / std::sqrt(12.0);
+  // Rounding is in every count, also where the residuals happen to show less of it.
+  const double s_N = std::max(fit.force.residual_newton, fit.counts_error_newton);
   const double far = x.mean / x.spread;
   fit.newton_per_count_stderr = s_N / (x.spread * std::sqrt(n));
   fit.offset_newton_stderr = s_N * std::sqrt((1.0 + far * far) / n);
   fit.correlation = -far / std::sqrt(1.0 + far * far);
-  fit.counts_error_newton = std::abs(fit.force.newton_per_count) / std::sqrt(12.0);
   if (fit.force.newton_per_count == 0.0) {
     throw Error(std::string("the counts do not follow the force at all: ") + kWhatToMeasure);
   }
   test_bend(x, residual_N, fit);
   fit.outliers = find_outliers(x, residual_N, config.significance);
   fit.saturated = find_saturated(points, config.saturation_share);
+  fit.loads = count_loads(points, config.linearity_share);
   fit.verdict = judge_force_line(fit, force_N.maxCoeff() - force_N.minCoeff(), config);
   return fit;
 }

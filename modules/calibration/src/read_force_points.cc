@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kLargestPointsFile_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMostPoints = 1'000'000;
 
-constexpr double kMostCounts = 1e12, kMostForce_N = 1e4;
+constexpr double kMostCounts = 1e12, kMostForce_N = 100.0;
 
 double plausible(const CsvReader& reader, std::size_t column, double most, const char* what) {
   const double value = reader.finite(column);
@@ -34,7 +34,9 @@ ForcePoints read_force_points(const std::filesystem::path& file) {
   while (reader.next()) {
     if (out.size() == kMostPoints) throw Error(name + ": more than a million readings");
     out.counts.push_back(plausible(reader, counts, kMostCounts, "counts of a converter"));
-    out.force_N.push_back(plausible(reader, force, kMostForce_N, "a force in newtons that a hand gives"));
+    out.force_N.push_back(
+        plausible(reader, force, kMostForce_N,
+                  "a force in newtons that a hand gives (100 N at most); grams times 0.00980665 are newtons"));
   }
   return out;
 }

@@ -112,6 +112,36 @@ TEST(FitForceLine, ThreePointsAreNotTrusted) {
   EXPECT_FALSE(fit.verdict.trustworthy);
 }
 
+// Six readings each of 0 and 3 N: nothing is seen between them.
+TEST(FitForceLine, TwoLoadsCannotShowStraightness) {
+  ForcePoints two;
+  for (int i = 0; i < 6; ++i) {
+    two.counts.insert(two.counts.end(), {1000.0 + i % 2, 9000.0 - i % 3});
+    two.force_N.insert(two.force_N.end(), {0.0, 3.0});
+  }
+  EXPECT_EQ(verdict_word(fit_force_line(two).verdict.verdicts), "limited");
+  two.counts.push_back(5000.0);
+  two.force_N.push_back(1.5);
+  EXPECT_EQ(fit_force_line(two).loads, 3u);
+  EXPECT_EQ(verdict_word(fit_force_line(two).verdict.verdicts), "valid");
+}
+
+// Counts 0, 100, 200 at 0, 1, 2 N: x̄ = 100, Sxx = 20000. A uniform error of ±½ count is 0.01/√12 N.
+TEST(FitForceLine, RoundingIsPartOfTheStandardErrors) {
+  const ForceLineFit fit = fit_force_line({{0, 100, 200}, {0, 1, 2}});
+  const double rounding_N = 0.01 / std::sqrt(12.0);
+  EXPECT_NEAR(fit.newton_per_count_stderr, rounding_N / std::sqrt(20000.0), 1e-12);
+  EXPECT_NEAR(fit.offset_newton_stderr, rounding_N * std::sqrt(1.0 / 3.0 + 100.0 * 100.0 / 20000.0), 1e-12);
+}
+
+TEST(ReadForcePoints, RefusesForcesThatNoHandGives) {
+  const testkit::TempDir dir;
+  const auto file = dir.path() / "grams.csv";
+  std::ofstream(file) << "counts,force_N\n1667,20.4\n3121,64.9\n4576,109.35\n";
+  EXPECT_THAT(message_of([&] { read_force_points(file); }),
+              testing::AllOf(HasSubstr("grams.csv:4: column 'force_N': '109.35'"), HasSubstr("grams")));
+}
+
 TEST(ReadForcePoints, NamesTheFaultyCell) {
   const testkit::TempDir dir;
   const auto file = dir.path() / "force.csv";

@@ -120,7 +120,7 @@ Pair common(std::vector<double> real, std::vector<double> rendered) {
 
 SpectrumAgreement compare_spectra(const Pair& pair, double spacing_m, const CompareTexturesConfig& config) {
   const auto line = [&](const std::vector<double>& x) {
-    return ComparedSurface{{band_limited_heights(x, spacing_m, config)}, spacing_m, {}};
+    return ComparedSurface{{band_limited_heights(x, spacing_m, config)}, spacing_m, {}, {}};
   };
   const ComparedSurface real = line(pair.real), rendered = line(pair.rendered);
   SpectrumAgreement out;

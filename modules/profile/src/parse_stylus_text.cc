@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "asperity/base/arrange_on_grid.h"
+#include "asperity/base/column_unit.h"
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "rounding_of_text.h"
 #include "text_cells.h"
 
 namespace asperity {
@@ -76,22 +78,38 @@ bool names_end_in_units(std::string_view line) {
   return std::all_of(cells.begin(), cells.end(), [](auto cell) { return split_length_name(cell).has_value(); });
 }
 
-double metres_of(HeightUnit unit) {
-  constexpr std::array<double, 4> kMetres{1e-6, 1e-3, 1.0, 1e-9};
-  return kMetres.at(static_cast<std::size_t>(unit));
+// A header line of the table's own columns that states a unit which is not a length.
+void refuse_other_units(const TableHead& head, const std::string& name) {
+  for (const std::string_view line : head.header) {
+    const auto cells = text_cells(line, head.separator == ' ' ? separator_of(line) : head.separator);
+    if (cells.size() != head.width) continue;
+    for (const std::string_view cell : cells) {
+      const ColumnUnit stated = column_unit(cell);
+      if (stated.is_other()) throw Error(name + ": " + not_a_length(cell, stated.unit));
+    }
+  }
 }
 
+struct TableUnits {
+  std::vector<double> metres;  // of each column
+  UnitOrigin origin = UnitOrigin::kHeader;
+};
+
 // Of the last header line that states them, else of the setting.
-std::vector<double> units_of(const TableHead& head, const std::string& name, const ReadHeightsConfig& config) {
+TableUnits units_of(const TableHead& head, const std::string& name, const ReadHeightsConfig& config) {
   for (auto line = head.header.rbegin(); line != head.header.rend(); ++line) {
-    if (auto units = header_units_m(*line, head.width)) return std::move(*units);
+    if (auto units = header_units_m(*line, head.width)) return {std::move(*units), UnitOrigin::kHeader};
   }
   if (!config.units.empty()) {
-    if (auto units = header_units_m(config.units, head.width)) return std::move(*units);
+    if (auto units = header_units_m(config.units, head.width)) return {std::move(*units), UnitOrigin::kSetting};
     throw Error(fmt::format("{}: '{}' does not state the units of its {} columns, as mm,um", name,
                             printable(config.units), head.width));
   }
-  if (head.width == 1) return {metres_of(config.unit)};
+  refuse_other_units(head, name);
+  if (head.width == 1) {
+    const ReadUnit unit = setting_unit(config);
+    return {{unit.metres}, unit.origin};
+  }
   throw Error(
       fmt::format("{}:{}: no header line states the units of its {} columns, as \"x [mm];z [µm]\"; --set "
                   "input.units={} states them",
@@ -199,9 +217,27 @@ bool is_decimal_comma_column(std::string_view text) {
   return with_comma;
 }
 
-Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+ReadUnit setting_unit(const ReadHeightsConfig& config) {
+  constexpr std::array<double, 5> kMetres{1e-6, 1e-6, 1e-3, 1.0, 1e-9};
+  return {kMetres.at(static_cast<std::size_t>(config.unit)),
+          config.unit == HeightUnit::kUnstated ? UnitOrigin::kAssumed : UnitOrigin::kSetting};
+}
+
+std::string not_a_length(std::string_view column, std::string_view unit) {
+  return fmt::format(
+      "column '{}': its unit '{}' is not a length that is known; name another column, or state the unit by --set "
+      "input.units=um",
+      printable(column), printable(unit));
+}
+
+Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config,
+                          HeightsOrigin& origin) {
   const TableHead head = head_of(text, text.size());
-  const TableRows rows = rows_of(text, name, head, units_of(head, name, config));
+  const TableUnits units = units_of(head, name, config);
+  origin.units.height = {units.metres.back(), units.origin};
+  if (head.width > 1) origin.units.position = {units.metres.front(), units.origin};
+  origin.last_digit_rms_m = 0.5 * units.metres.back() * rounding_step_rms(text, head.separator, head.width - 1);
+  const TableRows rows = rows_of(text, name, head, units.metres);
   if (rows.points_m.size() < 2) throw Error(name + ": fewer than two heights");
   if (head.width > 1 && !text.ends_with('\n')) {
     throw Error(

@@ -20,6 +20,13 @@ bool is_decimal_comma_column(std::string_view text);
 // "z [µm]", "mm;µm", "x_mm"), else `config.units`, of one column `config.unit`. Profiles: x rises in steps that are
 // even to a hundredth; steps without a row are missing heights. Maps: arrange_on_grid(). One column has the spacing
 // `config.spacing_m`. Throws Error naming file, line and value.
-Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config);
+Heights parse_stylus_text(std::string_view text, const std::string& name, const ReadHeightsConfig& config,
+                          HeightsOrigin& origin);
+
+// What is said of a column whose unit is not a length.
+std::string not_a_length(std::string_view column, std::string_view unit);
+
+// The unit of heights that no header states: the setting's, else µm, assumed.
+ReadUnit setting_unit(const ReadHeightsConfig& config);
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string>
 
+#include "asperity/base/column_unit.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 
@@ -18,27 +19,20 @@ bool same_word(std::string_view a, std::string_view b) {
                     [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-// Metres of the unit that a header's cell states: the last word of it, without brackets.
+// Metres of the unit that a header's cell states: all of it, or what column_unit() finds.
 std::optional<double> unit_of(std::string_view cell) {
-  while (!cell.empty() && std::string_view("])\"").find(cell.back()) != std::string_view::npos) cell.remove_suffix(1);
-  const std::size_t begin = cell.find_last_of(" [(_/\"");
-  const std::string_view word = begin == std::string_view::npos ? cell : cell.substr(begin + 1);
-  struct Unit {
-    std::string_view name;
-    double metres;
-  };
-  static constexpr std::array<Unit, 8> kUnits{{{"nm", 1e-9},
-                                               {"um", 1e-6},
-                                               {"\xc2\xb5m", 1e-6},
-                                               {"\xce\xbcm", 1e-6},
-                                               {"\xb5m", 1e-6},
-                                               {"mm", 1e-3},
-                                               {"cm", 1e-2},
-                                               {"m", 1.0}}};
-  for (const Unit& unit : kUnits) {
-    if (word == unit.name) return unit.metres;
+  while (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
+  if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '(')) return column_unit(cell).unit_m;
+  if (const auto whole = length_of_unit_m(cell)) return whole;
+  return column_unit(cell).unit_m;
+}
+
+// Words of a sentence that are units too.
+bool is_prose(std::string_view word) {
+  for (const std::string_view one : {"in", "foot", "feet", "thou", "mic", "ang"}) {
+    if (same_word(word, one)) return true;
   }
-  return std::nullopt;
+  return false;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -80,6 +74,7 @@ std::vector<std::string_view> text_cells(std::string_view line, char separator) 
 }
 
 std::optional<double> cell_number(std::string_view cell) {
+  if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') cell = trim(cell.substr(1, cell.size() - 2));
   std::string text(cell);
   if (std::count(text.begin(), text.end(), ',') == 1 && text.find('.') == std::string::npos)
     std::replace(text.begin(), text.end(), ',', '.');
@@ -126,7 +121,8 @@ std::optional<std::vector<double>> header_units_m(std::string_view line, std::si
   std::vector<double> out;
   for (const std::string_view word : words) {
     const bool in_brackets = word.ends_with(']') || word.ends_with(')');
-    if (const auto unit = unit_of(word); unit && (in_brackets || !has_number)) out.push_back(*unit);
+    if (!in_brackets && (has_number || is_prose(word))) continue;
+    if (const auto unit = unit_of(word)) out.push_back(*unit);
   }
   return out.size() == width ? std::optional(out) : std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace asperity {
 char separator_of(std::string_view line);
 std::vector<std::string_view> text_cells(std::string_view line, char separator);
 
-// With a decimal comma or point; where commas part the cells, with a point.
+// With a decimal comma or point, in quotes or not; where commas part the cells, with a point.
 std::optional<double> cell_number(std::string_view cell);
 
 // What instruments write for a point without a height: nothing, nan, NA, null, bad, dashes, asterisks, "No Data".

@@ -241,5 +241,113 @@ TEST(ReadHeights, HeightsFarAboveTheLengthHaveAnotherUnit) {
   expect_error(text, "heights span 2.5 m over a length of 0.02 m");
 }
 
+// 2455.245 of the column's unit, which the header states.
+TEST(ReadHeights, TheChosenColumnsUnitIsUsed) {
+  struct Case {
+    const char* header;
+    double metres;
+  };
+  for (const Case& one : {Case{"Height (nm)", 1e-9},
+                          {"Height [nm]", 1e-9},
+                          {"HEIGHT_NM", 1e-9},
+                          {"Height mm", 1e-3},
+                          {"z (\xc3\x85)", 1e-10},
+                          {"z_mil", 2.54e-5},
+                          {"z [inch]", 0.0254}}) {
+    HeightsOrigin origin;
+    const ReadHeightsConfig chosen{.spacing_m = 1e-3, .column = one.header};
+    const std::string several = std::string("No.,Position (mm),") + one.header + "\n0,0.0,0.25\n1,0.001,0.5\n";
+    const auto of_three = std::get<HeightProfile>(parse_heights(several, "f.csv", chosen, nullptr, &origin));
+    EXPECT_DOUBLE_EQ(of_three.height_m[0], 0.25 * one.metres) << one.header;
+    EXPECT_EQ(origin.units.height.origin, UnitOrigin::kHeader) << one.header;
+    EXPECT_DOUBLE_EQ(origin.units.height.metres, one.metres) << one.header;
+    const HeightProfile alone = profile_of(std::string(one.header) + "\n0.25\n0.5\n", {.spacing_m = 1e-3});
+    EXPECT_DOUBLE_EQ(alone.height_m[1], 0.5 * one.metres) << one.header;
+  }
+}
+
+TEST(ReadHeights, AUnitThatIsNotALengthIsRefusedWithItsColumn) {
+  const ReadHeightsConfig one_um{.spacing_m = 1e-6};
+  expect_error("z (V)\n1\n2\n", "f.csv:1: column 'z (V)': its unit 'V' is not a length", one_um);
+  expect_error("z_V\n1\n2\n", "column 'z_V': its unit 'V' is not a length", one_um);
+  expect_error("n,z [counts]\n0,1\n1,2\n", "column 'z [counts]': its unit 'counts'",
+               {.spacing_m = 1e-6, .column = "z [counts]"});
+  expect_error("x [mm];z [V]\n0;1\n0,1;2\n", "column 'z [V]': its unit 'V' is not a length");
+  // A name in brackets that is not a unit: the setting states one.
+  EXPECT_DOUBLE_EQ(profile_of("z (raw)\n1\n2\n", {.spacing_m = 1e-6, .units = "nm"}).height_m[1], 2e-9);
+}
+
+TEST(ReadHeights, StatesWhereTheUnitsComeFrom) {
+  const auto origin_of = [](std::string_view text, const ReadHeightsConfig& config) {
+    HeightsOrigin origin;
+    parse_heights(text, "f.csv", config, nullptr, &origin);
+    return units_text(origin.units);
+  };
+  EXPECT_THAT(origin_of("1\n2\n3\n", {.spacing_m = 1e-6}), HasSubstr("heights in µm (assumed)"));
+  EXPECT_EQ(origin_of("1\n2\n3\n", {.spacing_m = 1e-6, .unit = HeightUnit::kNanometre}), "heights in nm (as set)");
+  EXPECT_THAT(
+      origin_of("0,0,1\n1,0,2\n0,1,3\n1,1,4\n", {}),
+      testing::AllOf(HasSubstr("heights in µm (assumed), positions in mm (assumed)"), HasSubstr("input.units")));
+  EXPECT_EQ(origin_of("0,0,1\n1,0,2\n0,1,3\n1,1,4\n", {.units = "um,um,nm"}),
+            "heights in nm (as set), positions in µm (as set)");
+  EXPECT_EQ(origin_of("x_mm,z_um\n0,1\n1,2\n2,3\n", {}),
+            "heights in µm (by the header), positions in mm (by the header)");
+  EXPECT_EQ(origin_of("x [mm];z [nm]\n0;1\n1;2\n2;3\n", {}),
+            "heights in nm (by the header), positions in mm (by the header)");
+  EXPECT_EQ(origin_of("s_m,height_m\n0,1\n1,2\n", {}), "heights in m (the file's), positions in m (the file's)");
+}
+
+TEST(ReadHeights, TablesWithCommas) {
+  const HeightProfile gaps = profile_of("x_mm,z_um\n0,1\n1,\n2,NA\n3,4\n");
+  ASSERT_EQ(gaps.height_m.size(), 4u);
+  EXPECT_TRUE(std::isnan(gaps.height_m[1]));
+  EXPECT_TRUE(std::isnan(gaps.height_m[2]));
+  EXPECT_DOUBLE_EQ(gaps.height_m[3], 4e-6);
+  const HeightProfile turned = profile_of("z_um,x_mm\n5,0\n6,2\n7,4\n");
+  EXPECT_DOUBLE_EQ(turned.spacing_m, 2e-3);
+  EXPECT_DOUBLE_EQ(turned.height_m[1], 6e-6);
+  const HeightProfile quoted =
+      profile_of("\"Horizontal\",\"Vertical\"\n\"um\",\"nm\"\n\"0.0\",\"2.5\"\n\"1.0\",\"3.5\"\n\"2.0\",\"4.5\"\n");
+  EXPECT_NEAR(quoted.spacing_m, 1e-6, 1e-18);
+  EXPECT_DOUBLE_EQ(quoted.height_m[1], 3.5e-9);
+  EXPECT_EQ(profile_of("x_mm,z_um\n0,1\n1,2\n2,3\n\x1a").height_m.size(), 3u);
+  expect_error("x_mm,z_um\n0,1\n2,2\n1,3\n4,4\n", "f.csv:4: column 'x_mm': the positions do not rise: '1'");
+  expect_error("No.,Position (mm),Height (nm)\n0,0,1\n1,1,2\n", "--set input.column=NAME of 'No.', 'Position (mm)'");
+}
+
+TEST(ReadHeights, EqualHeightsFarOutsideTheOthersAreNamed) {
+  const auto found = [](const char* odd) {
+    std::string text;
+    for (int i = 0; i < 100; ++i) text += i % 40 == 7 ? std::string(odd) + "\n" : std::to_string(i % 9) + "\n";
+    Problems problems;
+    parse_heights(text, "f.csv", {.spacing_m = 1e-3}, &problems);
+    return problems;
+  };
+  const Problems sentinel = found("-9999");
+  ASSERT_EQ(sentinel.size(), 1u);
+  EXPECT_EQ(sentinel[0].kind, "sentinel");
+  EXPECT_EQ(sentinel[0].count, 3u);
+  EXPECT_EQ(found("9999").size(), 1u);
+  EXPECT_TRUE(found("-20").empty());  // a pit
+  EXPECT_TRUE(found("nan").empty());
+}
+
+// Half of the last digit, in any way of writing numbers: decimals, integers, powers of ten, zeros left out.
+TEST(ReadHeights, KnowsTheRoundingOfItsNumbers) {
+  const auto rounding_m = [](std::string_view text, const ReadHeightsConfig& config = {.spacing_m = 1e-6}) {
+    HeightsOrigin origin;
+    parse_heights(text, "f.csv", config, nullptr, &origin);
+    return origin.last_digit_rms_m;
+  };
+  EXPECT_NEAR(rounding_m("1.000\n2.125\n3.000\n"), 0.5e-9, 1e-15);
+  EXPECT_NEAR(rounding_m("1\n2.125\n3\n"), 0.5e-9, 1e-15);
+  EXPECT_NEAR(rounding_m("z_nm\n12\n7\n9\n"), 0.5e-9, 1e-15);
+  EXPECT_NEAR(rounding_m("1.00e+00\n2.13e+00\n3.00e+00\n"), 5e-9, 1e-15);
+  EXPECT_NEAR(rounding_m("x [mm];z [\xc2\xb5m]\n0;1,00\n1;2,13\n2;3,00\n"), 5e-9, 1e-15);
+  EXPECT_NEAR(rounding_m("0,0,1.5\n1,0,2.5\n0,1,3.5\n1,1,4.5\n"), 0.05e-6, 1e-15);
+  // 17 digits: what is left is the doubles' own.
+  EXPECT_LT(rounding_m("1.2345678901234567\n2.3456789012345678\n"), 1e-19);
+}
+
 }  // namespace
 }  // namespace asperity

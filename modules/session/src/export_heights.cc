@@ -36,7 +36,9 @@ std::string bytes_of(const ArealMap& map, HeightFile format) {
 }
 
 ArealMap read_map(const fs::path& file, const ReadHeightsConfig& reading, Problems& problems) {
-  Heights heights = read_heights(file, reading, &problems);
+  HeightsOrigin origin;
+  Heights heights = read_heights(file, reading, &problems, &origin);
+  if (origin.units.height.origin == UnitOrigin::kAssumed) problems.push_back({"warning", units_text(origin.units), 1});
   if (auto* map = std::get_if<ArealMap>(&heights)) return std::move(*map);
   auto& profile = std::get<HeightProfile>(heights);
   const std::size_t count = profile.height_m.size();

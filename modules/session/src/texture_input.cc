@@ -38,7 +38,7 @@ std::optional<Column> find_column(const CsvReader& csv, std::initializer_list<st
 }
 
 // A table of scattered heights; nullopt if its columns are not one's.
-std::optional<std::vector<ArealSample>> read_scattered(const std::string& file) {
+std::optional<std::vector<ArealSample>> read_scattered(const std::string& file, std::vector<FileUnits>* units) {
   const std::string text = read_file(file, kLargestFile_bytes);
   const std::string_view start = std::string_view(text).substr(0, text.find('\n'));
   // Instruments' files and text in other encodings are read_heights()'s.
@@ -50,12 +50,21 @@ std::optional<std::vector<ArealSample>> read_scattered(const std::string& file) 
   auto z = find_column(csv, {"texture"});
   if (!z) z = find_column(csv, {"height", "z"});
   if (!x || !y || !z) return std::nullopt;
+  if (units != nullptr) units->push_back({file, {{z->unit_m, UnitOrigin::kHeader}, {x->unit_m, UnitOrigin::kHeader}}});
   std::vector<ArealSample> samples;
   while (csv.next()) {
     samples.push_back({csv.number(x->index) * x->unit_m, csv.number(y->index) * y->unit_m,
                        csv.empty(z->index) ? kNan : csv.number(z->index) * z->unit_m});
   }
   return samples;
+}
+
+Heights read_with_units(const std::string& file, const ReadHeightsConfig& config, Problems* problems,
+                        std::vector<FileUnits>* units) {
+  HeightsOrigin origin;
+  Heights heights = read_heights(file, config, problems, &origin);
+  if (units != nullptr) units->push_back({file, origin.units});
+  return heights;
 }
 
 void add_map(const ArealMap& map, std::vector<ArealSample>& samples) {
@@ -78,11 +87,12 @@ NamedFingerprint fingerprint_of(const std::string& file, const HeightProfile& pr
 
 bool is_texture_file(const std::string& file) { return file.ends_with(".json"); }
 
-HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config, Problems* problems) {
+HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config, Problems* problems,
+                           std::vector<FileUnits>* units) {
   HeightProfile all;
   std::vector<NamedFingerprint> read;
   for (const std::string& file : files) {
-    const Heights heights = read_heights(file, config, problems);
+    const Heights heights = read_with_units(file, config, problems, units);
     const auto* profile = std::get_if<HeightProfile>(&heights);
     if (!profile) throw Error(file + ": is an areal map, but heights along a line are needed");
     read.push_back(fingerprint_of(file, *profile));
@@ -104,16 +114,17 @@ HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeig
 }
 
 std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& files, const ReadHeightsConfig& config,
-                                            double stroke_spacing_m, Problems* problems) {
+                                            double stroke_spacing_m, Problems* problems,
+                                            std::vector<FileUnits>* units) {
   std::vector<ArealSample> samples;
   std::size_t strokes = 0;
   std::vector<NamedFingerprint> read;
   for (const std::string& file : files) {
-    if (const auto scattered = read_scattered(file)) {
+    if (const auto scattered = read_scattered(file, units)) {
       samples.insert(samples.end(), scattered->begin(), scattered->end());
       continue;
     }
-    const Heights heights = read_heights(file, config, problems);
+    const Heights heights = read_with_units(file, config, problems, units);
     if (const auto* map = std::get_if<ArealMap>(&heights)) {
       add_map(*map, samples);
       continue;

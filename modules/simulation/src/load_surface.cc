@@ -12,12 +12,12 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/base/column_unit.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/decode_text.h"
 #include "asperity/base/error.h"
 #include "asperity/base/read_areal_map.h"
 #include "asperity/base/text.h"
-#include "asperity/base/units.h"
 #include "asperity/image/tiff_image.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/surface/parse_surface_file.h"
@@ -40,8 +40,11 @@ Error implausible(const std::string& where, double height_m, double first_m) {
 // The unit in a column's name, or `without` if there is none.
 double unit_m(const CsvReader& table, std::size_t column, double without) {
   if (table.columns().empty()) return without;
-  const auto named = split_length_name(table.columns()[column]);
-  return named ? named->unit_m : without;
+  const ColumnUnit stated = column_unit(table.columns()[column]);
+  if (stated.is_other())
+    table.fail("column '" + printable(table.columns()[column]) + "': its unit '" + printable(stated.unit) +
+               "' is not a length that is known");
+  return stated.unit_m.value_or(without);
 }
 
 // Index and fraction of `position` on a line of `count` samples continued by its mirror images.

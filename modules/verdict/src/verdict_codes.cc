@@ -157,6 +157,7 @@ constexpr VerdictCode kCodes[] = {
     {"body_moved", kLimited, "clamp the probe"},
     {"force_slope_unknown", kInvalid, "measure more forces over a wider range"},
     {"force_saturated", kInvalid, "leave those points out"},
+    {"force_few_loads", kLimited, "add loads between them"},
     {"force_not_straight", kLimited, "use the sensor in the part of its range where it is straight"},
     {"force_outlier", kNote, "measure this point again, or leave it out"},
     {"counts_coarse", kNote, "use a converter with more bits"},

@@ -42,6 +42,7 @@ struct ForceLineFit {
   double offset_newton_stderr = 0.0;
   double correlation = 0.0;  // of the two errors
   std::size_t points = 0;
+  std::size_t loads = 0;               // that differ by `linearity_share` of the forces' span
   int degrees_of_freedom = 0;          // points − 2
   double bend_newton = 0.0;            // greatest distance of the best parabola from the line, within the counts' range
   double bend_probability = 1.0;       // that a straight sensor shows such a bend; 1 below 4 points or 3 counts
@@ -53,12 +54,12 @@ struct ForceLineFit {
 
 // The straight line force = newton_per_count·counts + offset_newton by least squares in the force (thesis §3.5,
 // Fig. 11). The residual's standard deviation s has N − 2 degrees of freedom; the standard errors are s/√Sxx and
-// s·√(1/N + x̄²/Sxx). The errors of the counts are neglected: rounding adds newton_per_count/√12 to a residual, and
-// the verdict says so where that is not small beside s. Linearity: Student's t-test of a square term. Outliers:
-// externally studentised residuals against Student's t with the significance divided by N (Bonferroni). They are
-// named and kept: a calibration has few points, and the person who took them can look.
-// Throws Error, saying what to measure, for fewer than 3 points, for counts or forces that are all alike, and for a
-// number that is not finite.
+// s·√(1/N + x̄²/Sxx). Rounding of the counts adds newton_per_count/√12 to a residual: where that is more than s, it
+// takes the place of s, and the verdict says so where it is not small beside s. Fewer than three loads are limited.
+// Linearity: Student's t-test of a square term. Outliers: externally studentised residuals against Student's t with the
+// significance divided by N (Bonferroni). They are named and kept: a calibration has few points, and the person who
+// took them can look. Throws Error, saying what to measure, for fewer than 3 points, for counts or forces that are all
+// alike, and for a number that is not finite.
 ForceLineFit fit_force_line(const ForcePoints& points, const FitForceLineConfig& config = {});
 
 }  // namespace asperity

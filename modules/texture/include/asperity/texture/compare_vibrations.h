@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "asperity/texture/hand_verdict.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
@@ -30,7 +31,7 @@ struct ComparedVibration {
   double most_noise_mps2 = 0.0;
 };
 
-enum class VibrationVerdict { kSame, kNoticeable, kUndetermined };
+using VibrationVerdict = HandVerdict;
 
 struct VibrationBand {
   double low_Hz = 0.0, high_Hz = 0.0;
