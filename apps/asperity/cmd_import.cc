@@ -143,6 +143,9 @@ class ImportCommand : public Command {
     }
     if (!tip_.empty()) {
       const Eigen::Vector3d tip = point_option_m("--tip", tip_);
+      constexpr double kFarthest_m = 10.0;
+      if (tip.cwiseAbs().maxCoeff() > kFarthest_m)
+        throw UsageError("--tip: farther than 10 m; lengths need their unit, as 0mm,100mm,10mm");
       mapping_.tip_m = {tip.x(), tip.y(), tip.z()};
     }
     mapping_.invert_rotation = mapping_.invert_rotation || invert_;
@@ -314,6 +317,12 @@ class ImportCommand : public Command {
   }
 
   void save(const ImportTables& tables, const ImportedMotion& motion) {
+    // Only a mapping is replaced, never data.
+    if (std::filesystem::exists(save_mapping_)) {
+      const bool is_file = std::filesystem::is_regular_file(save_mapping_);
+      if (!is_file || read_file(save_mapping_, ReadLimits{}.csv_bytes).find("[mapping") == std::string::npos)
+        throw Error(printable(save_mapping_, 200) + ": exists and is not a mapping; nothing was changed");
+    }
     MappingConfig stated = stated_mapping(tables, mapping_, motion);
     write_file(save_mapping_, to_toml(list_fields("mapping", stated), true));
   }

@@ -64,6 +64,17 @@ TEST_F(ImportMapped, RefusesWhatCannotBe) {
   EXPECT_EQ(run(words({})).code, 2);  // neither --output nor --dry-run
 }
 
+TEST_F(ImportMapped, AMappingDoesNotReplaceData) {
+  const std::string data = (dir_ / "all.csv").string(), mapping = (dir_ / "map.toml").string();
+  const Outcome over = run(words({"--dry-run", "--save-mapping", data}));
+  EXPECT_EQ(over.code, 1);
+  EXPECT_THAT(over.err, HasSubstr("all.csv: exists and is not a mapping; nothing was changed"));
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(run(words({"--dry-run", "--save-mapping", mapping})).code, 0);
+  const Outcome tip = run(words({"--dry-run", "--tip", "0,100,10"}));
+  EXPECT_EQ(tip.code, 2);
+  EXPECT_THAT(tip.err, HasSubstr("--tip: farther than 10 m; lengths need their unit"));
+}
+
 // What was imported cannot be simulated again, nor imported of other data.
 TEST_F(ImportMapped, AnImportIsReplacedByTheSameFilesOnly) {
   const std::string rec = (dir_ / "rec").string();

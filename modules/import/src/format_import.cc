@@ -99,11 +99,12 @@ std::string import_checks_text(const ImportedMotion& motion) {
   std::string out;
   constexpr double kDegrees = 57.29577951308232;
   if (!motion.up.empty()) {
-    out += fmt::format("world       {} points up ({}; the mean specific force is {:.1f}° from it)\n", motion.up,
+    const bool is_axis = !motion.up.starts_with('(');
+    out += fmt::format("world       {} points up ({}; the mean specific force is {:.1f}° from {})\n", motion.up,
                        motion.up_is_assumed     ? "not stated, assumed"
                        : motion.up_is_estimated ? "by the specific force"
                                                 : "stated",
-                       motion.up_angle_rad * kDegrees);
+                       motion.up_angle_rad * kDegrees, is_axis ? "it" : "the nearest axis");
   }
   const StreamChecks& checks = motion.checks;
   if (checks.rest_mps2 > 0.0) out += fmt::format("gravity     {:.3f} m/s²\n", checks.rest_mps2);

@@ -86,6 +86,19 @@ std::vector<Candidate> candidates_of(const DelimitedTable& table, const std::str
   return out;
 }
 
+// "Tx" next to "Fx" is a torque where there are other positions.
+void leave_out_torques(const DelimitedTable& table, std::vector<Candidate>& candidates) {
+  const auto is_torque = [&](const Candidate& candidate) {
+    const std::string last = split_name_words(table.columns[candidate.column].name).back();
+    return candidate.words.kind == 'p' && last.size() == 2 && last.front() == 't';
+  };
+  const auto any = [&](const auto& is_it) { return std::any_of(candidates.begin(), candidates.end(), is_it); };
+  const bool has_forces = any([](const Candidate& c) { return c.words.kind == 'f' && c.words.axis != 0; });
+  const bool has_positions =
+      any([&](const Candidate& c) { return (c.words.kind == 'p' && !is_torque(c)) || c.words.kind == 0; });
+  if (has_forces && has_positions) std::erase_if(candidates, is_torque);
+}
+
 // Axes without a word are what their unit says, else the role's, where no column says that itself.
 void name_bare_axes(const DelimitedTable& table, char bare, bool is_given, std::vector<Candidate>& candidates) {
   const std::vector<Candidate> said = candidates;
@@ -151,6 +164,7 @@ void guess_columns(const DelimitedTable& table, FileRole role, const std::string
   if (!table.has_header()) return;
   if (!has_group(map, ColumnGroup::kTime)) guess_time_columns(table, map);
   std::vector<Candidate> candidates = candidates_of(table, body, map, context);
+  leave_out_torques(table, candidates);
   name_bare_axes(table, bare_kind(role, file), context.is_given, candidates);
   std::erase_if(candidates, [&](const Candidate& c) { return has_other_unit(table.columns[c.column], c.words.kind); });
   const auto has_w = [&](char kind) {

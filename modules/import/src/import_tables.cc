@@ -107,6 +107,22 @@ std::optional<ImportTable> find_force(const std::filesystem::path& imu, const st
   return std::nullopt;
 }
 
+// The columns that are stated may be in the sensor's file or in that of the poses.
+template <class Read>
+ImportTable read_stated_force(const std::filesystem::path& imu, const std::filesystem::path& pose, const Read& read,
+                              double imu_Hz, const std::vector<ColumnGroup>& elsewhere) {
+  try {
+    return read(imu, FileRole::kForce, elsewhere, imu_Hz, false);
+  } catch (const Error&) {
+    if (imu == pose) throw;
+    try {
+      return read(pose, FileRole::kForce, elsewhere, 0.0, false);
+    } catch (const Error&) {
+    }
+    throw;
+  }
+}
+
 }  // namespace
 
 bool has_fixed_columns(const ImportFiles& files) {
@@ -160,7 +176,7 @@ ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& c
     out.force = read(files.force, FileRole::kForce, times);
     require_force(*out.force);
   } else if (states_force(config) || one_file) {
-    out.force = read(imu, FileRole::kForce, times, sensor_Hz, false);
+    out.force = read_stated_force(imu, files.pose, read, sensor_Hz, times);
     if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
   } else {
     out.force = find_force(imu, files.pose, read, config.imu.rate_Hz, config.pose.rate_Hz);

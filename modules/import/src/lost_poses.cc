@@ -113,11 +113,12 @@ std::size_t leave_out_zero_poses(const ImportTable& in, const std::array<std::ve
     }
   }
   if (lost == 0) return 0;
-  problems.push_back({kKind,
-                      fmt::format("{}: {} {} position 0 and no rotation, far from the poses beside: the body was lost; "
-                                  "left out",
-                                  in.table.file, lost, lost == 1 ? "row has" : "rows have"),
-                      lost});
+  problems.push_back(
+      {kKind,
+       fmt::format("{}: {} {} position 0 and no rotation, far from the poses next to them: the body was lost; "
+                   "left out",
+                   in.table.file, lost, lost == 1 ? "row has" : "rows have"),
+       lost});
   return lost;
 }
 

@@ -93,6 +93,21 @@ TEST_F(GuessedColumns, WhatNobodyUsesIsNamed) {
   }
 }
 
+// As force sensors of six axes name them.
+TEST_F(GuessedColumns, TorquesAreNotPositions) {
+  const ImportTables tables = tables_of(
+      "t,ax,ay,az,Tx,Ty,Tz,Fx,Fy,Fz,x,y,z,qx,qy,qz,qw\n0,0,0,9.8,1,2,3,4,5,6,0.1,0.2,0.3,0,0,0,1\n"
+      "0.01,0,0,9.8,1,2,3,4,5,6,0.1,0.2,0.3,0,0,0,1\n");
+  EXPECT_EQ(find_meaning(tables.pose->map, "px")->column, 10u);
+  EXPECT_EQ(find_meaning(tables.force->map, "fx")->column, 7u);
+  ASSERT_EQ(unused_columns(tables.all()).size(), 1u);
+  EXPECT_EQ(unused_columns(tables.all())[0].columns, (std::vector<std::size_t>{4, 5, 6}));
+  // Translations alone are positions.
+  const ImportTables other =
+      tables_of("t,ax,ay,az,tx,ty,tz,qx,qy,qz,qw\n0,0,0,9.8,1,2,3,0,0,0,1\n0.01,0,0,9.8,1,2,3,0,0,0,1\n");
+  EXPECT_EQ(find_meaning(other.pose->map, "px")->column, 4u);
+}
+
 TEST_F(GuessedColumns, AStatedColumnIsNothingElse) {
   MappingConfig config;
   config.columns = "a=#8-#10[1/1000 g]";  // wrong, but stated: no position is left, and none is invented
@@ -128,6 +143,35 @@ TEST_F(GuessedColumns, AForceInTheSensorsFileIsUsed) {
   // Half a count of 16 N in 15 bits.
   EXPECT_NEAR(recording.calibration.force.force_N(recording.probe.force_counts[500]), true_force_N(2.0),
               0.5 * 16.0 / 32768.0 + 1e-9);
+}
+
+// A force in the poses' file is read again by the mapping that was saved.
+TEST_F(GuessedColumns, AForceInThePosesFileIsUsed) {
+  std::string pose = "t_s,px_m,py_m,pz_m,qw,qx,qy,qz,load_N\n", imu = "t_s,ax,ay,az,gx,gy,gz\n";
+  const ImportStreams motion = known_motion(4.0);
+  for (std::size_t i = 0; i < motion.pose.size(); ++i) {
+    const Pose& T = motion.pose.T_world_body[i];
+    const double t = 1e-9 * static_cast<double>(motion.pose.t_ns[i]);
+    pose +=
+        fmt::format("{},{},{},{},{},{},{},{},{}\n", t, T.translation_m.x(), T.translation_m.y(), T.translation_m.z(),
+                    T.rotation.w(), T.rotation.x(), T.rotation.y(), T.rotation.z(), true_force_N(t));
+  }
+  for (std::size_t i = 0; i < motion.rate.size(); ++i) {
+    const Eigen::Vector3d f = motion.specific_force.value[i], w = motion.rate.value[i];
+    imu += fmt::format("{},{},{},{},{},{},{}\n", 1e-9 * static_cast<double>(motion.rate.t_ns[i]), f.x(), f.y(), f.z(),
+                       w.x(), w.y(), w.z());
+  }
+  write_file(dir_ / "pose.csv", pose);
+  write_file(dir_ / "imu.csv", imu);
+  const ImportFiles files{dir_ / "pose.csv", dir_ / "imu.csv", {}, {}, {}};
+  ImportTables tables = read_import_tables(files, {});
+  ASSERT_TRUE(tables.force);
+  const MappingConfig saved = stated_mapping(tables, {}, read_imported_motion(tables, {}));
+  ImportTables again = read_import_tables(files, saved);
+  ASSERT_TRUE(again.force);
+  const ImportedMotion read = read_imported_motion(again, saved);
+  ASSERT_EQ(read.streams.force.size(), 400u);
+  EXPECT_NEAR(read.streams.force.value[200], true_force_N(2.0), 1e-12);
 }
 
 TEST_F(GuessedColumns, AForceFileWithoutAForceIsToldItsColumns) {
