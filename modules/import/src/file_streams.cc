@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/import/stated_setting.h"
 #include "lost_poses.h"
 #include "row_times.h"
 #include "split_cells.h"

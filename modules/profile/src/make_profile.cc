@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
@@ -93,29 +94,32 @@ std::vector<int> find_parts(const std::vector<double>& t_s, const std::vector<do
   return part;
 }
 
-// Moves the ends [moves, stands) of a motion inwards over what is crept there at less than kCreeping of its mean speed.
-// As in a rest, slow errors of the height are steps there: 75 µm within 0.1 mm of smooth glass.
+// Moves the ends [moves, stands) of a motion inwards over what is crept there at less than kCreeping of its mean speed,
+// in each kLeastCreep_s. As in a rest, slow errors of the height are steps there: 75 µm within 0.1 mm of smooth glass.
 void leave_out_creep(const std::vector<double>& t_s, const std::vector<double>& s_m, std::size_t& moves,
-                     std::size_t& stands, double& crept_first_m, double& crept_last_m) {
+                     std::size_t& stands) {
   const std::size_t first = moves, last = stands - 1;
   const double slow_mps = kCreeping * (s_m[last] - s_m[first]) / (t_s[last] - t_s[first]);
-  const auto creeps = [&](std::size_t a, std::size_t b) {
-    return t_s[b] - t_s[a] >= kLeastCreep_s && s_m[b] - s_m[a] <= slow_mps * (t_s[b] - t_s[a]);
-  };
+  const auto creeps = [&](std::size_t a, std::size_t b) { return s_m[b] - s_m[a] <= slow_mps * (t_s[b] - t_s[a]); };
   std::size_t begin = first, end = last;
-  for (std::size_t i = first; i < last; ++i) begin = creeps(first, i) ? i : begin;
-  for (std::size_t i = last; i > first; --i) end = creeps(i, last) ? i : end;
+  for (std::size_t ahead = first; ahead < last; ++ahead) {
+    if (t_s[ahead] - t_s[begin] < kLeastCreep_s) continue;
+    if (!creeps(begin, ahead)) break;
+    ++begin;
+  }
+  for (std::size_t behind = last; behind > first; --behind) {
+    if (t_s[end] - t_s[behind] < kLeastCreep_s) continue;
+    if (!creeps(behind, end)) break;
+    --end;
+  }
   if (begin >= end) return;
-  crept_first_m = s_m[begin] - s_m[first];
-  crept_last_m = s_m[last] - s_m[end];
   moves = begin;
   stands = end + 1;
 }
 
 // Of the rests before and after the path, in which s stands (measure_arc_length.h), only what is next to the motion
 // stays: the height's slow error there is not that of the stroke, and would make a step at its end.
-void leave_out_end_rests(const std::vector<double>& t_s, const std::vector<double>& s_m, std::vector<char>& use,
-                         double& crept_first_m, double& crept_last_m) {
+void leave_out_end_rests(const std::vector<double>& t_s, const std::vector<double>& s_m, std::vector<char>& use) {
   std::size_t first = 0, last = use.size();
   while (first < last && use[first] == 0) ++first;
   while (last > first && use[last - 1] == 0) --last;
@@ -124,7 +128,7 @@ void leave_out_end_rests(const std::vector<double>& t_s, const std::vector<doubl
   while (moves < last && s_m[moves] == s_m[first]) ++moves;
   while (stands > moves && s_m[stands - 1] == s_m[last - 1]) --stands;
   if (moves >= stands) return;
-  leave_out_creep(t_s, s_m, moves, stands, crept_first_m, crept_last_m);
+  leave_out_creep(t_s, s_m, moves, stands);
   for (std::size_t i = first; i < moves; ++i) use[i] = t_s[moves] - t_s[i] <= kRestBeside_s ? use[i] : char{0};
   for (std::size_t i = stands; i < last; ++i) use[i] = t_s[i] - t_s[stands - 1] <= kRestBeside_s ? use[i] : char{0};
 }
@@ -152,21 +156,33 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
   }
   std::vector<char> use(n, 1);
   if (!usable.empty()) std::copy(usable.begin(), usable.end(), use.begin());
-  Profile out;
-  leave_out_end_rests(samples.t_s, base.s_m, use, out.crept_first_m, out.crept_last_m);
   const std::vector<int> part = find_parts(samples.t_s, base.s_m, config.max_stop_s);
-  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (part[i] < 0) use[i] = 0;
-    if (use[i] == 0) continue;
-    low_m = std::min(low_m, base.s_m[i]);
-    high_m = std::max(high_m, base.s_m[i]);
-  }
+  const auto leave_out_stops = [&](std::vector<char>& marks) {
+    for (std::size_t i = 0; i < n; ++i) marks[i] = part[i] < 0 ? char{0} : marks[i];
+  };
+  const auto span_of = [&](const std::vector<char>& marks) {
+    double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (marks[i] == 0) continue;
+      low_m = std::min(low_m, base.s_m[i]);
+      high_m = std::max(high_m, base.s_m[i]);
+    }
+    return std::pair(low_m, high_m);
+  };
+  std::vector<char> path = use;
+  leave_out_stops(path);
+  const auto [from_m, to_m] = span_of(path);
+  leave_out_end_rests(samples.t_s, base.s_m, use);
+  leave_out_stops(use);
+  const auto [low_m, high_m] = span_of(use);
   if (!(high_m > low_m)) throw Error("profile: no stretch of the motion is in contact and moving");
 
+  Profile out;
   out.spacing_m = config.spacing_m;
-  out.from_m = low_m - out.crept_first_m;
-  out.to_m = high_m + out.crept_last_m;
+  out.from_m = from_m;
+  out.to_m = to_m;
+  out.crept_first_m = low_m - from_m;
+  out.crept_last_m = to_m - high_m;
   count_points(high_m - low_m, config.spacing_m);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(low_m / config.spacing_m - 1e-9));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(high_m / config.spacing_m + 1e-9));

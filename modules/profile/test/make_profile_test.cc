@@ -90,7 +90,8 @@ TEST(MakeProfile, ACreepAtThePathsEndHasNoHeights) {
   EXPECT_NEAR(profile.to_m, s_m.back(), 1e-9);
   EXPECT_NEAR(profile.crept_last_m, 0.15e-3, 0.01e-3);
   EXPECT_EQ(profile.crept_first_m, 0.0);
-  for (const double height_m : profile.height_m) EXPECT_LT(std::abs(height_m), 6e-6);
+  // The texture, and the drift of the 20 ms that stay.
+  for (const double height_m : profile.height_m) EXPECT_FALSE(std::abs(height_m) > 8.5e-6) << height_m;
 }
 
 TEST(MakeProfile, DetailBeyondTheSpacingDoesNotFold) {
