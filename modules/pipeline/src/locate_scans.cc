@@ -10,6 +10,8 @@
 #include "asperity/base/error.h"
 #include "asperity/pipeline/find_placements.h"
 #include "asperity/pipeline/pose_candidates.h"
+#include "asperity/registration/estimate_drift.h"
+#include "asperity/registration/pose_error.h"
 #include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/pose_rivals.h"
 #include "asperity/registration/refine_placements.h"
@@ -120,9 +122,38 @@ RegisterConfig search_config(const ScanPoints& scans, const RegisterConfig& conf
   return out;
 }
 
+// Paths without stated errors get those that their heights show at the pose: all of them the largest.
+std::optional<AssumedDrift> assume_errors(const RegistrationSurface& ready, const Pose& T_mesh_world, bool in_sequence,
+                                          const RegisterConfig& config, std::vector<MeasuredPath>& paths) {
+  std::optional<AssumedDrift> out;
+  WeighConfig weighing;
+  weighing.slow_length_m = config.refinement.slow_length_m;
+  for (const MeasuredPath& path : paths) {
+    if (path.slow_covariance_world_m2.trace() > 0.0) continue;
+    if (!out) out.emplace();
+    if (!in_sequence) continue;
+    const AssumedDrift drift = estimate_drift(path, ready, T_mesh_world, weighing, config.search.registration);
+    out->sigma_m = std::max(out->sigma_m, drift.sigma_m);
+    out->length_m = std::max(out->length_m, drift.length_m);
+  }
+  if (!out || !(out->sigma_m > 0.0)) return out;
+  for (MeasuredPath& path : paths) {
+    if (path.slow_covariance_world_m2.trace() > 0.0) continue;
+    path.slow_covariance_world_m2 = out->sigma_m * out->sigma_m * Eigen::Matrix3d::Identity();
+    path.sigma_m = out->sigma_m;
+  }
+  return out;
+}
+
+// The settings with the length that was found with assumed errors.
+RegisterConfig with_assumed(RegisterConfig config, const std::optional<AssumedDrift>& assumed) {
+  if (assumed && assumed->length_m > 0.0) config.refinement.slow_length_m = assumed->length_m;
+  return config;
+}
+
 // Scans of one placement, from a guess or from anywhere; `known` is a pose that fits as well as any that was found,
-// `candidates` gets all poses that were compared.
-RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
+// `candidates` gets all poses that were compared, and paths without stated errors those that they show.
+RefinedRegistration locate_together(ScanPoints& scans, const std::vector<std::size_t>& members,
                                     const MeshSurface& surface, const RegistrationSurface& ready,
                                     const std::optional<Pose>& guess, const std::optional<Pose>& known,
                                     const RegisterConfig& config, const RegistrationObserver& observer,
@@ -162,6 +193,7 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     local.starts.when = OtherStarts::kNever;
     out.registration = register_path(smooth, ready, candidates.found.front().T_mesh_world, local, observer);
   }
+  out.registration.assumed = assume_errors(ready, out.registration.T_mesh_world, scans.in_sequence, searched, paths);
   // A guess that the paths contradict has no say in the refinement.
   const std::optional<Pose> believed =
       guess && is_near(*guess, out.registration.T_mesh_world, out.registration.centre_mesh_m, config.refinement)
@@ -171,7 +203,10 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
   out.slow_error_world_m.resize(members.size());
   if (!scans.in_sequence) return out;
   observer.update("refinement", 0.0);
-  return refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
+  for (std::size_t i = 0; i < members.size(); ++i)
+    scans.points[members[i]].path.slow_covariance_world_m2 = paths[i].slow_covariance_world_m2;
+  return refine_registration(paths, surface, out.registration, believed, {},
+                             with_assumed(config, out.registration.assumed).refinement, observer);
 }
 
 // The scans of each placement, its guess, and a pose that is known to fit.
@@ -261,6 +296,19 @@ void measure_misfit(const ScanPoints& scans, const RegistrationSurface& ready, c
       measure_pose_misfit(paths, ready, guess, misfit_config(config), placement.registration);
 }
 
+// The comparison of poses knows nothing of errors that were assumed after it.
+void raise_sigma(const ScanPoints& scans, const RegistrationResult& result, PoseRivals& rivals) {
+  std::vector<Eigen::Vector3d> p_mesh_m;
+  for (const PathPoints& points : scans.points) {
+    for (const Eigen::Vector3d& p_m : points.path.p_world_m) {
+      if (p_m.allFinite()) p_mesh_m.push_back(result.T_mesh_world * p_m);
+    }
+  }
+  const PoseError error = pose_error(result, result.T_mesh_world, p_mesh_m);
+  rivals.sigma_m = std::max(rivals.sigma_m, error.sigma_m);
+  rivals.sigma_rad = std::max(rivals.sigma_rad, error.sigma_rad);
+}
+
 }  // namespace
 
 LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
@@ -275,9 +323,12 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   out.slow_error_world_m.resize(count);
   out.rms_m.assign(count, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::optional<Pose>> believed;
+  ScanPoints known;  // with errors for all
+  known.points = scans.points;
+  known.in_sequence = scans.in_sequence;
   for (std::size_t k = 0; k < groups.scans.size(); ++k) {
     PoseCandidates candidates;
-    RefinedRegistration located = locate_together(scans, groups.scans[k], surface, ready, groups.guesses[k],
+    RefinedRegistration located = locate_together(known, groups.scans[k], surface, ready, groups.guesses[k],
                                                   groups.known[k], config, observer, candidates);
     out.candidates.push_back(std::move(candidates));
     const RegistrationResult& found = located.registration;
@@ -294,15 +345,23 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     out.placements.push_back({std::move(located.registration), groups.scans[k], {}});
   }
   if (ProcessMethods::get(config.process.method).register_paths) return out;
-  if (scans.in_sequence) refine_together(scans, surface, believed, config, observer, out);
-  const RegisterConfig searched = search_config(scans, config);
+  std::optional<AssumedDrift> longest;
+  for (const Placement& placement : out.placements) {
+    const std::optional<AssumedDrift>& assumed = placement.registration.assumed;
+    if (assumed && (!longest || assumed->length_m > longest->length_m)) longest = assumed;
+  }
+  const RegisterConfig last = with_assumed(config, longest);
+  if (scans.in_sequence) refine_together(known, surface, believed, last, observer, out);
+  const RegisterConfig searched = search_config(scans, last);
   for (std::size_t k = 0; k < out.placements.size(); ++k) {
     Placement& placement = out.placements[k];
-    measure_misfit(scans, ready, groups.guesses[k], config, out, placement);
+    measure_misfit(known, ready, groups.guesses[k], last, out, placement);
     const Pose& pose = placement.registration.T_mesh_world;
-    state_rivals(
-        judge_candidate(points_of(scans, placement.scans), ready, pose, groups.guesses[k], out.candidates[k], searched),
-        placement.registration);
+    PoseRivals rivals =
+        judge_candidate(points_of(scans, placement.scans), ready, pose, groups.guesses[k], out.candidates[k], searched);
+    if (placement.registration.assumed && !rivals.symmetric_motion)
+      raise_sigma(points_of(known, placement.scans), placement.registration, rivals);
+    state_rivals(rivals, placement.registration);
   }
   return out;
 }

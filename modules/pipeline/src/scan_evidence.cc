@@ -179,6 +179,14 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
   out.slow_m = misfit.slow_m;
   out.explained_m = misfit.explained_m;
   out.extent_m = misfit.extent_m;
+  out.off_share = misfit.off_share;
+  out.off_limit_m = misfit.off_limit_m;
+  out.off_m = misfit.off_m;
+  if (registration.assumed) {
+    out.assumed_drift_m = registration.assumed->sigma_m;
+    out.assumed_length_m = registration.assumed->length_m;
+    out.independent_assumed = !(registration.assumed->sigma_m > 0.0);
+  }
   out.guess_shift_m = misfit.guess_shift_m;
   out.guess_rotation_rad = misfit.guess_rotation_rad;
   out.guess_sigma_m = misfit.guess_sigma_m;

@@ -1,6 +1,7 @@
 #include "asperity/pipeline/scan_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "asperity/base/error.h"
@@ -40,11 +41,36 @@ ProcessResult motion_of(const Scan& scan, const RegisterConfig& config, const Ob
   return out;
 }
 
+// Whether points without times follow one another all the same, as those of a path do: the points of a cloud are listed
+// in steps as long as the cloud.
+bool is_path(const std::vector<Eigen::Vector3d>& p_m) {
+  constexpr std::size_t kLeast = 30;
+  constexpr double kShort = 0.2;
+  if (p_m.size() < kLeast) return false;
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : p_m) mean_m += p / static_cast<double>(p_m.size());
+  double square_m2 = 0.0;
+  std::vector<double> steps_m;
+  for (std::size_t i = 0; i < p_m.size(); ++i) {
+    square_m2 += (p_m[i] - mean_m).squaredNorm() / static_cast<double>(p_m.size());
+    if (i > 0) steps_m.push_back((p_m[i] - p_m[i - 1]).norm());
+  }
+  const auto half = steps_m.begin() + static_cast<std::ptrdiff_t>(steps_m.size() / 2);
+  std::nth_element(steps_m.begin(), half, steps_m.end());
+  return *half < kShort * std::sqrt(square_m2);
+}
+
+bool is_in_sequence(const Scan& scan) {
+  return scan.recording || scan.path.timed || is_path(scan.path.motion.p_world_tip_m);
+}
+
 PathPoints points_of(const Scan& scan, const TipMotion& motion, const RegisterConfig& config) {
   // Points without times stand for themselves: nothing rests in them.
   if (!scan.recording && !scan.path.timed) {
-    PathPoints out;
+    PathPoints out = measured_path(motion, {}, Eigen::Vector3d::Zero(), config.points);  // for their errors
     out.path.p_world_m = motion.p_world_tip_m;
+    out.path.q_world_marker.clear();
+    out.sample.clear();
     for (std::size_t i = 0; i < motion.size(); ++i) out.sample.push_back(static_cast<double>(i));
     return out;
   }
@@ -104,7 +130,7 @@ ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig
     }
     out.points.push_back(points_of(scan, out.motions.back().trajectory.motion, config));
     if (scan.placement) out.placement.push_back(static_cast<std::size_t>(*scan.placement));
-    out.in_sequence = out.in_sequence && (scan.recording.has_value() || scan.path.timed);
+    out.in_sequence = out.in_sequence && is_in_sequence(scan);
   }
   check_trajectories(scans, out);
   number_tips(scans, out);

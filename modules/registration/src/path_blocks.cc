@@ -20,7 +20,7 @@ PathBlocks divide_into_blocks(std::span<const MeasuredPath> paths, const PointSe
     const Eigen::Matrix3d& C = paths[p].slow_covariance_world_m2;
     const bool known = C.allFinite() && C.trace() > 0.0;
     out.stated = out.stated && known;
-    const double usual_m = 2e-3 * points.radius_m;
+    const double usual_m = kUnstatedDrift * points.radius_m;
     path.covariance_m2 = known ? C : Eigen::Matrix3d(usual_m * usual_m * Eigen::Matrix3d::Identity());
     std::size_t end = begin;
     while (end < points.size() && points.path[end] == p) ++end;

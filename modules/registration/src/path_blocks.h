@@ -13,6 +13,9 @@
 
 namespace asperity::registration {
 
+// Of paths without stated errors a priori: the drift over the points' radius, and what its logarithm is known to.
+inline constexpr double kUnstatedDrift = 2e-3, kUnstatedSpread = 1.5;
+
 // The paths, divided into blocks over which heights are averaged (weigh_poses.h).
 struct PathBlocks {
   struct Path {

@@ -102,10 +102,11 @@ FacetHeights measure_heights(const PathChain& chain, const State& state, const M
   FacetHeights out;
   out.d_m.resize(n);
   out.bulge_m.resize(n);
+  out.here_m.resize(n);
   out.p_mesh_m.resize(n);
   out.normal.resize(n);
   out.usable.assign(n, 0);
-  double square_m2 = 0.0;
+  double square_m2 = 0.0, edge_sum_m = 0.0, edges = 0.0;
   for (const PathChain::Part& part : chain.parts) {
     const Pose& T_mesh_world = state.T_mesh_world[part.placement];
     const double level_m = state.level_m[static_cast<Eigen::Index>(&part - chain.parts.data())];
@@ -125,9 +126,14 @@ FacetHeights measure_heights(const PathChain& chain, const State& state, const M
           (surface.mesh.vertices_m[corner[1]] - a).cross(surface.mesh.vertices_m[corner[2]] - a).normalized();
       if (!(normal.dot(foot.normal) > 0.0)) continue;
       out.p_mesh_m[i] = p_m;
-      out.normal[i] = ((1.0 - state.bulge) * normal + state.bulge * foot.normal).normalized();
-      out.bulge_m[i] = facet_bulge_m(surface, foot.triangle, foot.barycentric);
-      out.d_m[i] = normal.dot(p_m - a) - state.bulge * out.bulge_m[i] - level_m;
+      const double facet_share = state.bulge_m.empty() ? 1.0 - state.bulge : 0.0;
+      out.normal[i] = (facet_share * normal + (1.0 - facet_share) * foot.normal).normalized();
+      out.here_m[i] = facet_bulge_m(surface, foot.triangle, foot.barycentric);
+      out.bulge_m[i] = state.bulge_m.empty() ? out.here_m[i] : state.bulge_m[i];
+      out.d_m[i] = normal.dot(p_m - a) - out.here_m[i] + (1.0 - state.bulge) * out.bulge_m[i] - level_m;
+      for (std::size_t k = 0; k < 3; ++k)
+        edge_sum_m += (surface.mesh.vertices_m[corner[(k + 1) % 3]] - surface.mesh.vertices_m[corner[k]]).norm() / 3.0;
+      edges += 1.0;
       out.usable[i] = 1;
       magnitude_m.push_back(std::abs(out.d_m[i]));
     }
@@ -146,6 +152,7 @@ FacetHeights measure_heights(const PathChain& chain, const State& state, const M
     square_m2 += part_m2;
     out.count += count;
   }
+  out.edge_m = edges > 0.0 ? edge_sum_m / edges : 0.0;
   out.rms_m = std::sqrt(square_m2 / static_cast<double>(std::max<std::size_t>(1, out.count)));
   return out;
 }

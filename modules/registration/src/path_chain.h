@@ -59,6 +59,7 @@ struct State {
   double bulge = 0.0;
   Eigen::VectorXd level_m;
   Eigen::VectorXd knots_m;
+  std::vector<double> bulge_m;  // under each point, as it was where a descent began; empty: as it is at the pose
 };
 
 // No tip shift, no slow error, no relief; half the bulge.
@@ -73,16 +74,22 @@ Eigen::Vector3d tip_motion_m(const PathChain& chain, const State& state, std::si
 inline constexpr double kBulge = 0.5, kBulgeSigma = 0.5;
 
 // Heights over the surface under the paths, between the facets and their bulge, and its normals (mesh frame).
+// `here_m` is the bulge under the points, `bulge_m` the one that the heights were made with.
 struct FacetHeights {
-  std::vector<double> d_m, bulge_m;
+  std::vector<double> d_m, bulge_m, here_m;
   std::vector<Eigen::Vector3d> p_mesh_m, normal;
   std::vector<char> usable;
   double rms_m = 0.0;
+  double edge_m = 0.0;             // mean edge of the facets under the points
   std::size_t count = 0;           // of usable ones
   std::vector<double> part_rms_m;  // of each path
   std::vector<std::size_t> part_count;
 };
 
+// The heights over the round surface (facet and bulge) plus (1 − state.bulge) of state.bulge_m. With that fixed they
+// have no kinks as functions of the pose, and their gradient is the interpolated normal. Where state.bulge_m is empty
+// the facets' kinks count: they would tell where along the mesh a path is to a fraction of an edge, but an edge further
+// the path fits them again, and only an object that has the mesh's facets has them.
 // Each path's mean relief is taken off its heights. Heights beyond `outlier_sigmas` of their path do not count.
 FacetHeights measure_heights(const PathChain& chain, const State& state, const MeshSurface& surface,
                              double outlier_sigmas);

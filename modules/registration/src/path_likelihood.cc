@@ -89,7 +89,7 @@ FilterSums<kRows> PathLikelihood::filter(const Scales& scales) const {
 }
 
 double PathLikelihood::scales_prior(double slow_ratio) const {
-  const double away = std::log(slow_ratio) / (blocks_.stated ? config_.slow_ratio_spread : 1.5);
+  const double away = std::log(slow_ratio) / (blocks_.stated ? config_.slow_ratio_spread : kUnstatedSpread);
   return away * away;
 }
 

@@ -55,6 +55,26 @@ double slow_variance_m2(std::span<const MeasuredPath> paths, const PointSet& poi
   return count > 0.0 ? sum_m2 / count : 0.0;
 }
 
+// Points whose mean distance over `length_m` of path is beyond what an error of path or mesh can be. Single points are
+// not asked: a relief can be as deep. The scale is that of the nearest quarter, so that most of a path may be off.
+void measure_off(const PointSet& points, const std::vector<double>& d_m, const std::vector<char>& over, double length_m,
+                 PoseMisfit& out) {
+  constexpr double kQuarter = 0.3186;  // 25th percentile of |x| for normal x
+  constexpr double kScales = 6.0, kOfExtent = 0.03;
+  const std::vector<double> slow_m = slow_part(points, d_m, over, length_m);
+  std::vector<double> mean_m;
+  for (std::size_t i = 0; i < d_m.size(); ++i) {
+    if (over[i] != 0) mean_m.push_back(std::abs(slow_m[i]));
+  }
+  if (mean_m.size() < kLeastCounted) return;
+  std::sort(mean_m.begin(), mean_m.end());
+  out.off_limit_m = std::max(kScales * mean_m[mean_m.size() / 4] / kQuarter, kOfExtent * points.radius_m);
+  const auto first = std::upper_bound(mean_m.begin(), mean_m.end(), out.off_limit_m);
+  const auto off = static_cast<std::size_t>(mean_m.end() - first);
+  out.off_share = static_cast<double>(off) / static_cast<double>(mean_m.size());
+  if (off > 0) out.off_m = first[static_cast<std::ptrdiff_t>(off / 2)];
+}
+
 }  // namespace
 
 PoseMisfit measure_pose_misfit(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
@@ -71,13 +91,15 @@ PoseMisfit measure_pose_misfit(std::span<const MeasuredPath> paths, const Regist
   const std::vector<Match>& matches = matcher.matches();
   const double limit_m = kOutlier * matcher.scale_m();
   std::vector<double> d_m(points.size());
-  std::vector<char> counts(points.size(), 0);
+  std::vector<char> counts(points.size(), 0), over(points.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     d_m[i] = matches[i].distance_m;
+    over[i] = matches[i].usable ? 1 : 0;
     counts[i] = matches[i].usable && std::abs(d_m[i]) <= limit_m ? 1 : 0;
     count += counts[i] != 0 ? 1 : 0;
   }
+  measure_off(points, d_m, over, config.slow_length_m, out);
   if (guess) {
     const registration::CentredPose from = registration::centred(*guess, points);
     out.guess_shift_m = (pose.centre_m - from.centre_m).norm();

@@ -123,6 +123,8 @@ PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSu
       continue;
     }
     out.odds += std::exp(std::min(log_odds, 700.0));
+    const double higher = std::max(out.log_odds, log_odds), lower = std::min(out.log_odds, log_odds);
+    out.log_odds = higher + std::log1p(std::exp(lower - higher));
     if (out.rival) continue;
     out.rival = RunnerUp{other.T_mesh_world, residual_m(surface, points, other.T_mesh_world),
                          rms_between(points, centred(pose, points), centred(other.T_mesh_world, points)),
@@ -175,9 +177,9 @@ void state_rivals(const PoseRivals& rivals, RegistrationResult& result) {
     result.verdict +=
         result.ambiguous
             ? fmt::format(" Ambiguous: poses {}, the likeliest {}, are as likely by a factor of e^{:.1f}.", where,
-                          place, std::log(rivals.odds))
+                          place, rivals.log_odds)
             : fmt::format(" All other poses {}, the likeliest {}, are less likely by a factor of e^{:.1f}.", where,
-                          place, -std::log(rivals.odds));
+                          place, -rivals.log_odds);
   }
   if (rivals.symmetric_copies > 0 || rivals.symmetric_motion) result.verdict += " The mesh maps onto itself.";
 }

@@ -16,6 +16,7 @@ namespace asperity {
 namespace {
 
 using registration::FacetHeights;
+using registration::FacetKinks;
 using registration::IterationWatch;
 using registration::OverlapLink;
 using registration::PathChain;
@@ -125,6 +126,9 @@ RefinedPlacements refine_placements(std::span<const MeasuredPath> paths, std::sp
       problem.set_overlaps(std::move(links));
     }
     best = descend_to_minimum(problem, best.state, whitening, config.max_iterations, watch);
+    iterations += best.iterations;
+    if (round + 1 < kJointRounds || !shows_facets(problem, best)) continue;
+    best = descend_to_minimum(problem, best.state, whitening, config.max_iterations, watch, FacetKinks::kCounted);
     iterations += best.iterations;
   }
   if (!std::isfinite(best.cost) || best.information.rows() == 0) return out;

@@ -41,6 +41,8 @@ class Refinement {
 
   const PathChain& chain() const { return chain_; }
   bool slow() const { return slow_; }
+  const Eigen::Vector3d& centre_m(std::size_t placement) const { return priors_[placement].centre_mesh_m; }
+  Eigen::Index bulge_at() const { return tips_at() + 3 * static_cast<Eigen::Index>(chain_.tip_sigma_m.size()); }
   void set_overlaps(std::vector<OverlapLink> links) { links_ = std::move(links); }
 
   FacetHeights heights(const State& state) const {
@@ -71,7 +73,6 @@ class Refinement {
     return w;
   }
   Eigen::Index tips_at() const { return 6 * static_cast<Eigen::Index>(chain_.placement_count); }
-  Eigen::Index bulge_at() const { return tips_at() + 3 * static_cast<Eigen::Index>(chain_.tip_sigma_m.size()); }
   Eigen::Index levels_at() const { return bulge_at() + 1; }
 
   const PathChain& chain_;

@@ -53,6 +53,26 @@ TEST(PoseMisfit, PointsBeyondTheBorderDoNotCount) {
   EXPECT_LT(misfit_of(path).slow_m, 2e-6);
 }
 
+// A third of the path rises to 20 mm over the square, 20 mm from its beginning on.
+TEST(PoseMisfit, APartInTheAirIsOff) {
+  MeasuredPath path = path_at(0.0, 1e-5, 0.0);
+  EXPECT_EQ(misfit_of(path).off_share, 0.0);
+  for (int i = 0; i < 300; ++i) path.p_world_m.emplace_back(0.02, -0.03 + 1e-4 * i, 0.02);
+  const PoseMisfit misfit = misfit_of(path);
+  EXPECT_NEAR(misfit.off_share, 300.0 / 901.0, 0.12);  // to half of the 20 mm over which distances are averaged
+  EXPECT_NEAR(misfit.off_m, 0.02, 0.3e-3);
+  EXPECT_LT(misfit.off_limit_m, 2e-3);
+}
+
+// Holes of a board are deep, but no centimetre is off.
+TEST(PoseMisfit, AReliefIsNotOff) {
+  MeasuredPath path = path_at(0.0, 0.0, 0.0);
+  for (std::size_t i = 0; i < path.p_world_m.size(); ++i) {
+    if (i % 20 < 6) path.p_world_m[i].z() = -1.5e-3;
+  }
+  EXPECT_EQ(misfit_of(path).off_share, 0.0);
+}
+
 TEST(PoseMisfit, MeasuresFromTheGuess) {
   const Pose guess{Eigen::Quaterniond(Eigen::AngleAxisd(0.2, Vector3d::UnitZ())), Vector3d(0.0, 0.0, 3e-3)};
   const PoseMisfit misfit = misfit_of(path_at(0.0, 0.0, 0.0), guess);

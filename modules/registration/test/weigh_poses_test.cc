@@ -222,5 +222,17 @@ TEST(FindRivals, OnAnotherMeshThePathNeedsALargeErrorOrFitsInManyPlaces) {
   EXPECT_TRUE(rivals.odds > 0.01 || rivals.slow_ratio > 3.5) << rivals.odds << " " << rivals.slow_ratio;
 }
 
+TEST(FindRivals, OddsBeyondTheRangeOfNumbersAreStated) {
+  // e⁻¹⁵⁰⁰ is no number: it is stated as a logarithm.
+  PoseRivals rivals;
+  rivals.rival = RunnerUp{};
+  rivals.odds = 0.0;
+  rivals.log_odds = -1500.0;
+  RegistrationResult result;
+  state_rivals(rivals, result);
+  EXPECT_NE(result.verdict.find("e^1500.0"), std::string::npos) << result.verdict;
+  EXPECT_EQ(result.verdict.find("inf"), std::string::npos) << result.verdict;
+}
+
 }  // namespace
 }  // namespace asperity

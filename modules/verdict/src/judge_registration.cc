@@ -1,5 +1,6 @@
 #include "asperity/verdict/judge_registration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -13,6 +14,7 @@ namespace asperity {
 namespace {
 
 constexpr double kLeastInliers = 0.5;  // with fewer the path is not on this mesh
+constexpr double kOffShare = 0.1;      // of the path: more than an end that was lifted off too late
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kMisfit = 5.0;  // residual over what is explained; a path has few independent centimetres
 // A mesh made by photogrammetry or a handheld scanner can be wrong by some tenths of a percent of its size, which the
@@ -59,9 +61,44 @@ bool size_shown(const PoseEvidence& evidence) {
          evidence.mesh_scale_gain > kScaleSigmas * kScaleSigmas;
 }
 
+// With as many decimals as show two digits of the standard error.
 std::string fitting_size(const PoseEvidence& evidence) {
-  return fmt::format("the scan fits the mesh best at {:.3f} ± {:.3f} of its size", evidence.mesh_scale,
-                     evidence.mesh_scale * evidence.mesh_scale_sigma);
+  constexpr int kLeastDecimals = 3, kMostDecimals = 9;
+  const double sigma = evidence.mesh_scale * evidence.mesh_scale_sigma;
+  const int decimals =
+      sigma > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), kLeastDecimals, kMostDecimals)
+                  : kLeastDecimals;
+  return fmt::format("the scan fits the mesh best at {:.{}f} ± {:.{}f} of its size", evidence.mesh_scale, decimals,
+                     sigma, decimals);
+}
+
+// The path, or a part of it, is not over the mesh at all.
+void judge_distance(const PoseEvidence& evidence, Verdicts& out) {
+  const auto points = static_cast<double>(evidence.points);
+  const double outlying = evidence.points > 0 ? static_cast<double>(evidence.outliers) / points : 1.0;
+  if (evidence.off_share > kOffShare) {
+    out.push_back(make_verdict(
+        "off_mesh", fmt::format("{:.0f} % of the path is more than {:.2g} mm from the mesh, {:.2g} mm in the median",
+                                100.0 * evidence.off_share, 1e3 * evidence.off_limit_m, 1e3 * evidence.off_m)));
+  } else if (outlying > 1.0 - kLeastInliers) {
+    out.push_back(
+        make_verdict("off_mesh", fmt::format("only {:.0f} % of the points are on the mesh", 100.0 * (1.0 - outlying))));
+  }
+}
+
+// Errors that nobody stated were estimated from the distances that remain at this very pose.
+void judge_errors(const PoseEvidence& evidence, Verdicts& out) {
+  if (evidence.assumed_drift_m > 0.0) {
+    out.push_back(make_verdict(
+        "errors_assumed",
+        fmt::format("no errors are stated for the path's points: by the distances from the mesh, a drift of {:.2g} mm "
+                    "RMS on each axis that lasts for {:.2g} mm of path is assumed",
+                    1e3 * evidence.assumed_drift_m, 1e3 * evidence.assumed_length_m)));
+  } else if (evidence.independent_assumed) {
+    out.push_back(make_verdict("errors_assumed",
+                               "no errors are stated for the points, and they do not follow one another: their errors "
+                               "are assumed to be independent"));
+  }
 }
 
 void judge_scale(const PoseEvidence& evidence, Verdicts& out) {
@@ -88,12 +125,8 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
         make_verdict("pose_not_converged", fmt::format("the registration did not converge in {} iteration{}",
                                                        evidence.iterations, evidence.iterations == 1 ? "" : "s")));
   }
-  const auto points = static_cast<double>(evidence.points);
-  const double outlying = evidence.points > 0 ? static_cast<double>(evidence.outliers) / points : 1.0;
-  if (outlying > 1.0 - kLeastInliers) {
-    out.push_back(
-        make_verdict("off_mesh", fmt::format("only {:.0f} % of the points are on the mesh", 100.0 * (1.0 - outlying))));
-  }
+  judge_distance(evidence, out);
+  judge_errors(evidence, out);
   if (evidence.slow_m > kMisfit * evidence.explained_m) {
     const bool beyond = evidence.slow_m > kMeshError * evidence.extent_m;
     out.push_back(make_verdict(
@@ -134,7 +167,7 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                                 "and {:.0f} % of their points are not explained by drift",
                                                 evidence.slow_ratio, 100.0 * evidence.outlying)));
   }
-  const bool as_stated = evidence.slow_ratio <= kSlowAsStated;
+  const bool as_stated = evidence.slow_ratio <= kSlowAsStated && !(evidence.assumed_drift_m > 0.0);
   if (evidence.mirror_log_odds > std::log(kMirrorOdds)) {
     out.push_back(make_verdict("mirror_image_fits",
                                fmt::format("the paths fit the mesh's mirror image {} (log odds {:.1f})",

@@ -44,6 +44,47 @@ TEST(JudgeRegistration, NamesWhatIsWrongWithAPose) {
   EXPECT_FALSE(is_trustworthy(verdicts));
 }
 
+TEST(JudgeRegistration, RefusesAPathThatIsPartlyInTheAir) {
+  PoseEvidence evidence = good_pose();
+  evidence.off_share = 0.04;
+  evidence.off_limit_m = 1.8e-3;
+  evidence.off_m = 24e-3;
+  EXPECT_TRUE(judge_registration(evidence).empty());
+  evidence.off_share = 0.48;
+  const Verdicts verdicts = judge_registration(evidence);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].code, "off_mesh");
+  EXPECT_EQ(verdicts[0].message, "48 % of the path is more than 1.8 mm from the mesh, 24 mm in the median");
+  EXPECT_FALSE(is_trustworthy(verdicts));
+}
+
+TEST(JudgeRegistration, ErrorsThatNobodyStatedLimitThePose) {
+  PoseEvidence evidence = good_pose();
+  evidence.assumed_drift_m = 0.15e-3;
+  evidence.assumed_length_m = 14e-3;
+  Verdicts verdicts = judge_registration(evidence);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].code, "errors_assumed");
+  EXPECT_THAT(verdicts[0].message, testing::HasSubstr("0.15 mm RMS on each axis that lasts for 14 mm"));
+  EXPECT_TRUE(is_trustworthy(verdicts));
+  // Nothing says that the drift is as large as it should be: the limit for a chance is the sharper one.
+  evidence.chance = 0.3;
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+  evidence = good_pose();
+  evidence.independent_assumed = true;
+  verdicts = judge_registration(evidence);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_THAT(verdicts[0].message, testing::HasSubstr("independent"));
+}
+
+TEST(JudgeRegistration, AStandardErrorIsNotRoundedToNothing) {
+  PoseEvidence evidence = good_pose();
+  evidence.mesh_scale = 0.98412;
+  evidence.mesh_scale_sigma = 0.00023;
+  evidence.mesh_scale_gain = 1000.0;
+  EXPECT_THAT(judge_registration(evidence).front().message, testing::HasSubstr("0.98412 ± 0.00023"));
+}
+
 TEST(JudgeRegistration, RefusesAResidualThatNoErrorExplains) {
   PoseEvidence evidence = good_pose();
   evidence.points = 100;

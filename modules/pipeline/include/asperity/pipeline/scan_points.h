@@ -17,15 +17,15 @@ struct ScanPoints {
   std::vector<PathPoints> points;
   std::vector<Fingerprint> fingerprints;  // of what they were measured from
   std::vector<std::size_t> placement;     // the stated number of each scan's placement; empty: not stated
-  bool in_sequence = true;  // all scans have times: their points follow one another, and errors last along them
+  bool in_sequence = true;                // the points of all scans follow one another, and errors last along them
 };
 
 // What a scan was measured from; of a path alone its points are all there is.
 Fingerprint fingerprint_of(const Scan& scan);
 
 // The tips' trajectories (seed §4.1 to §4.3) and their points. A path without times is given some: only its sequence
-// counts. Throws Error naming the scan, for no scan, naming two scans that are not two measurements
-// (check_independent), and Cancelled.
+// counts; with steps as long as the whole its points are a cloud, which has none. Throws Error naming the scan, for no
+// scan, naming two scans that are not two measurements (check_independent), and Cancelled.
 ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig& config,
                             const Observer& observer = {});
 

@@ -21,8 +21,9 @@ struct PoseMisfitConfig {
 // relief. The mean can come from the paths' drift (their covariance along the normal), the sag of the facets and
 // the error of the mesh, and the relief's own mean, which is known to the relief's RMS (a board's holes lie under its
 // face). Both parts are RMS values over the points that are nearer than four robust standard deviations; points beyond
-// a border of the mesh do not count. With fewer than ten points all is nan. `guess`: the pose that the registration
-// began from, if it was given.
+// a border of the mesh do not count. With fewer than ten points all this is nan. `off_share`: of the points whose mean
+// distance over slow_length_m is above 6 robust standard deviations and 3 % of the path's extent. `guess`: the pose
+// that the registration began from, if it was given.
 PoseMisfit measure_pose_misfit(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                                const std::optional<Pose>& guess, const PoseMisfitConfig& config,
                                const RegistrationResult& result);

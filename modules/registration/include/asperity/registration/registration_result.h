@@ -52,12 +52,21 @@ struct RunnerUp {
   double rotation_rad = 0.0;  // angle between the two
 };
 
+// The errors of paths for which none are stated, as their heights over the mesh show them (estimate_drift.h).
+struct AssumedDrift {
+  double sigma_m = 0.0;   // standard deviation per axis; 0: the points are no path, their errors are independent
+  double length_m = 0.0;  // of path over which it lasts
+};
+
 // What keeps the paths from the mesh, and from the guess (pose_misfit.h); nan: not known.
 struct PoseMisfit {
   double slow_m = std::numeric_limits<double>::quiet_NaN();         // of the distances, over centimetres of path, RMS
   double relief_m = std::numeric_limits<double>::quiet_NaN();       // the rest of them, RMS
   double explained_m = std::numeric_limits<double>::quiet_NaN();    // of slow_m, by all known errors, RMS
   double extent_m = std::numeric_limits<double>::quiet_NaN();       // RMS distance of the points from their mean
+  double off_share = 0.0;                                           // of the points, that are not over the mesh:
+  double off_limit_m = std::numeric_limits<double>::quiet_NaN();    // farther than this over centimetres, and
+  double off_m = std::numeric_limits<double>::quiet_NaN();          // this in the median of those
   double guess_shift_m = std::numeric_limits<double>::quiet_NaN();  // of the points' mean from where the guess has it
   double guess_rotation_rad = std::numeric_limits<double>::quiet_NaN();
   double guess_sigma_m = std::numeric_limits<double>::quiet_NaN();  // as the settings state the guess's error
@@ -74,12 +83,13 @@ struct MeshScale {
 
 // What speaks against a pose (pose_rivals.h); nan: not known.
 struct PoseRivals {
-  bool judged = false;               // the rest is known
-  bool searched = false;             // poses everywhere on the mesh were compared
-  double odds = 0.0;                 // of all other poses together to this one
-  std::optional<RunnerUp> rival;     // the likeliest of these, however unlikely
-  std::size_t symmetric_copies = 0;  // poses that the mesh's own symmetry maps onto this one
-  bool symmetric_motion = false;     // the mesh maps onto itself along a motion that the paths leave open
+  bool judged = false;                                         // the rest is known
+  bool searched = false;                                       // poses everywhere on the mesh were compared
+  double odds = 0.0;                                           // of all other poses together to this one
+  double log_odds = -std::numeric_limits<double>::infinity();  // its logarithm, where odds are too small for a number
+  std::optional<RunnerUp> rival;                               // the likeliest of these, however unlikely
+  std::size_t symmetric_copies = 0;                            // poses that the mesh's own symmetry maps onto this one
+  bool symmetric_motion = false;  // the mesh maps onto itself along a motion that the paths leave open
   double sigma_m = std::numeric_limits<double>::quiet_NaN();     // of the points' RMS position, and of the rotation,
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();   // these motions left out
   double slow_ratio = std::numeric_limits<double>::quiet_NaN();  // of the drift that the pose needs to the stated drift
@@ -108,7 +118,8 @@ struct RegistrationResult {
   std::optional<RunnerUp> runner_up;
   PoseMisfit misfit;
   PoseRivals rivals;
-  bool ambiguous = false;  // the runner-up fits as well
+  std::optional<AssumedDrift> assumed;  // of paths without stated errors, the largest; absent: all are stated
+  bool ambiguous = false;               // the runner-up fits as well
   bool trustworthy = true;
   std::string verdict;  // in words
   Problems problems;

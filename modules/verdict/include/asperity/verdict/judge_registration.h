@@ -20,9 +20,15 @@ struct PoseEvidence {
   // nan: not known. Of the distances from the mesh and the guess nothing is concluded then; a pose whose errors, or
   // whose difference from the mesh's shape, are not known is refused.
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  double slow_m = kUnknown;       // RMS distance from the mesh over centimetres of path
-  double explained_m = kUnknown;  // of it, by all known errors of path and mesh and by the relief, RMS
-  double extent_m = kUnknown;     // of the path, RMS about its mean
+  double slow_m = kUnknown;          // RMS distance from the mesh over centimetres of path
+  double explained_m = kUnknown;     // of it, by all known errors of path and mesh and by the relief, RMS
+  double extent_m = kUnknown;        // of the path, RMS about its mean
+  double off_share = 0.0;            // of the path, that is not over the mesh: its mean over centimetres is farther
+  double off_limit_m = kUnknown;     // from it than this,
+  double off_m = kUnknown;           // by this in the median
+  double assumed_drift_m = 0.0;      // of paths without stated errors, per axis; 0: all are stated
+  double assumed_length_m = 0.0;     // over which it lasts
+  bool independent_assumed = false;  // points without stated errors that are no path
   double guess_shift_m = kUnknown;
   double guess_rotation_rad = kUnknown;
   double guess_sigma_m = kUnknown;  // as the settings state it
