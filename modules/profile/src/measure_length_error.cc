@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kAlongStep_m = 1e-3;
 constexpr double kLevel_m = 0.1e-3;      // of the relief over the base, as deep textures are
+constexpr double kTurnStep_m = 4e-3;     // longer than what a tip jumps aside at a hole, over which no error changes
 constexpr double kFades_s = 0.5;         // correlation time of a smoothed position's error
 constexpr double kClosest = 0.25;        // of what following bends closer adds: what the next closer one may
 constexpr double kIndependent_Hz = 1.0;  // slow errors of the height a second, as find_base_path.h takes them
@@ -53,11 +54,11 @@ struct Step {
   Eigen::Vector3d along_world;   // unit
 };
 
-std::vector<Step> find_steps(const BasePathResult& base, const Ends& ends) {
+std::vector<Step> find_steps(const BasePathResult& base, const Ends& ends, double step_m) {
   std::vector<Step> out;
   std::size_t from = ends.first;
   for (std::size_t i = ends.first; i <= ends.last; ++i) {
-    if (base.contact[i] == 0 || base.path.s_m[i] - base.path.s_m[from] < kAlongStep_m) continue;
+    if (base.contact[i] == 0 || base.path.s_m[i] - base.path.s_m[from] < step_m) continue;
     const Eigen::Vector3d way_m = base.path.p_world_m[i] - base.path.p_world_m[from];
     if (way_m.norm() > 0.0) out.push_back({from, i, way_m.normalized()});
     from = i;
@@ -94,7 +95,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   if (n == 0 || motion.cov_world_tip_m2.size() != n || base.path.size() != n || base.contact.size() != n) return out;
   const Ends ends = find_ends(base);
   if (ends.last <= ends.first) return out;
-  const std::vector<Step> steps = find_steps(base, ends);
+  const std::vector<Step> steps = find_steps(base, ends, kAlongStep_m);
   if (steps.empty()) return out;
 
   const double ends_m2 = along_variance_m2(motion, ends.first, steps.front().along_world) +
@@ -119,7 +120,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   const double tip_m = turned_marker.cwiseProduct(motion.sigma_tip_in_marker_m).norm();
   const double length_m = base.path.s_m[ends.last] - base.path.s_m[ends.first];
   out.ends_m = std::sqrt(ends_m2);
-  out.turned_m = std::sqrt(turned_variance_m2(motion, steps));
+  out.turned_m = std::sqrt(turned_variance_m2(motion, find_steps(base, ends, kTurnStep_m)));
   out.bends_m = kClosest * std::abs(base.bends_m);
   out.place_m = std::sqrt(mean(along_m2));
   out.scale_sigma = std::hypot(std::hypot(tip_m, ball_m), level_m * turned_normal) / length_m;

@@ -88,7 +88,7 @@ TEST(MakeProfile, ACreepAtThePathsEndHasNoHeights) {
   for (std::size_t i = 4000; i < t_s.size(); ++i) flat.motion.p_world_tip_m[i].z() -= 150e-6 * (t_s[i] - 2.0);
   const Profile profile = make_profile(flat.motion, flat.base, {}, {});
   EXPECT_NEAR(profile.to_m, s_m.back(), 1e-9);
-  EXPECT_NEAR(profile.crept_last_m, 0.15e-3, 0.01e-3);
+  EXPECT_NEAR(profile.crept_last_m, 0.15e-3, 0.021e-3);  // 70 ms of it beside the stroke
   EXPECT_EQ(profile.crept_first_m, 0.0);
   // The texture, and the drift of the 20 ms that stay.
   for (const double height_m : profile.height_m) EXPECT_FALSE(std::abs(height_m) > 8.5e-6) << height_m;

@@ -77,6 +77,8 @@ std::vector<char> find_spikes(const ProbeStream& probe, const std::vector<Eigen:
   return spike;
 }
 
+constexpr std::size_t kLongestTried = 12;  // samples: of a peak that is restored as those that were tried
+
 // One axis' run of samples at the converter's limit, from `first` to before `last`.
 struct ClippedRun {
   int axis = 0;
@@ -122,6 +124,43 @@ double restore_peak(const ClippedRun& run, std::vector<Eigen::Vector3d>& x) {
     added += std::abs(excess) / static_cast<double>(run.last - run.first);
   }
   return added;
+}
+
+// How far restored peaks are from the true ones, over what was restored: found on whole peaks of the same axis and side
+// that are cut at kTrialLevel of the range and restored in the same way. nan: too few of them.
+double restoration_error(const std::vector<Eigen::Vector3d>& x, const RecordingInfo& info, int axis, bool upper) {
+  constexpr double kTrialLevel = 0.6;
+  constexpr std::size_t kFewest = 20;
+  double middle = 0.0;
+  for (const Eigen::Vector3d& sample : x) middle += sample[axis] / static_cast<double>(x.size());
+  const double limit = upper ? info.adc_max : info.adc_min, level = middle + kTrialLevel * (limit - middle);
+  const auto beyond = [&](double value, double than) { return upper ? value >= than : value <= than; };
+  std::vector<Eigen::Vector3d> cut = x;
+  std::vector<ClippedRun> runs;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!beyond(x[i][axis], level)) continue;
+    ClippedRun run{axis, i, i, upper, level};
+    bool whole = true;
+    for (; run.last < x.size() && beyond(x[run.last][axis], level); ++run.last)
+      whole = whole && !beyond(x[run.last][axis], limit);
+    i = run.last - 1;
+    if (!whole || run.last - run.first > kLongestTried) continue;
+    runs.push_back(run);
+    for (std::size_t j = run.first; j < run.last; ++j) cut[j][axis] = level;
+  }
+  if (runs.size() < kFewest) return kNan;
+  double error_square = 0.0, restored_square = 0.0;
+  for (const ClippedRun& run : runs) {
+    restore_peak(run, cut);
+    double error = 0.0, restored = 0.0;
+    for (std::size_t j = run.first; j < run.last; ++j) {
+      error += x[j][axis] - cut[j][axis];
+      restored += cut[j][axis] - level;
+    }
+    error_square += error * error;
+    restored_square += restored * restored;
+  }
+  return restored_square > 0.0 ? std::sqrt(error_square / restored_square) : kNan;
 }
 
 // nan cells filled by straight lines between the values present; constant beyond the first and last.
@@ -273,14 +312,23 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   for (std::size_t i = 0; i < n; ++i) {
     if (spike[i]) accel_counts[i] = 0.5 * (probe.accel_counts[i - 1] + probe.accel_counts[i + 1]);
   }
-  for (const ClippedRun& run : find_clipped(accel_counts, info)) {
+  const std::vector<ClippedRun> clipped = find_clipped(accel_counts, info);
+  std::array<std::array<double, 2>, 3> restoration{};  // by axis and side
+  for (const ClippedRun& run : clipped) {
+    double& error = restoration[static_cast<std::size_t>(run.axis)][run.upper ? 1 : 0];
+    if (error == 0.0) error = restoration_error(probe.accel_counts, info, run.axis, run.upper);
+  }
+  for (const ClippedRun& run : clipped) {
     const double added = restore_peak(run, accel_counts);
     // A long run hides its peak altogether.
     const double hidden =
         std::min(1.0, static_cast<double>(run.last - run.first) / 10.0) * 0.5 * (info.adc_max - info.adc_min);
     const double sigma_counts = config.saturation_sigma * std::max(added, hidden);
+    // A long run has no trial.
+    const double error = restoration[static_cast<std::size_t>(run.axis)][run.upper ? 1 : 0];
+    const bool tried = std::isfinite(error) && run.last - run.first <= kLongestTried;
     const double run_s = static_cast<double>(run.last - run.first) * out.period_s;
-    const Eigen::Vector3d velocity_mps = sigma_counts * run_s * inverse.col(run.axis);
+    const Eigen::Vector3d velocity_mps = (tried ? error * added : sigma_counts) * run_s * inverse.col(run.axis);
     out.clipped_m2ps3 += 2.0 * velocity_mps.cwiseAbs2() / (static_cast<double>(n) * out.period_s);
     for (std::size_t i = run.first; i < run.last; ++i)
       clipped_sigma_mps2[i] = std::max(clipped_sigma_mps2[i], sigma_counts / accel_scale);

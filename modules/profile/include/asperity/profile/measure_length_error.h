@@ -22,9 +22,9 @@ struct LengthErrors {
 // known of the level at which the tip goes changes it by Θ times that: `indentation_sigma_m`, 0.1 mm of the relief's
 // own level, and the normal error of the path; and the ball's radius r over √3 times the angle by which the probe turns
 // less than the normals, for it rolls. `turned_m`: the rest of e, of covariance C, fades with a correlation time of
-// 0.5 s: Σᵢⱼ Δtᵢᵀ C Δtⱼ exp(−|tᵢ − tⱼ|/0.5 s). Steps of 1 mm. `bends_m`: a quarter of what a direction that follows
-// the bends closer adds to the length, for the next closer one would add or take again (docs/profile-bends.md).
-// Zeros without a covariance.
+// 0.5 s: Σᵢⱼ Δtᵢᵀ C Δtⱼ exp(−|tᵢ − tⱼ|/0.5 s). Steps of 1 mm, of 4 mm for this. `bends_m`: a quarter of what a
+// direction that follows the bends closer adds to the length, for the next closer one would add or take again
+// (docs/profile-bends.md). Zeros without a covariance.
 LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult& base,
                                   const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m,
                                   double indentation_sigma_m);
