@@ -16,6 +16,8 @@ namespace asperity {
 
 namespace {
 
+constexpr double kManyClipped = 0.01;  // of the samples
+
 using inertial_smoother::Epoch;
 using inertial_smoother::Factors;
 using inertial_smoother::latency_sigma_s;
@@ -120,7 +122,8 @@ void append_metrics(const InertialStream& inertial, const SmootherProblem& probl
   metrics["probe_rate_Hz"] = inertial.period_s > 0.0 ? 1.0 / inertial.period_s : 0.0;
   metrics["probe_clock_jitter_s"] = inertial.clock_jitter_s;
   metrics["accel_noise_mps2"] = inertial.accel_noise_mps2;
-  if (inertial.saturated > 0) {
+  // Where few are clipped, what their restoration leaves is within the noise of the contact.
+  if (static_cast<double>(inertial.saturated) > kManyClipped * static_cast<double>(inertial.size())) {
     metrics["accel_clipped_x_m2ps3"] = inertial.clipped_m2ps3.x();
     metrics["accel_clipped_y_m2ps3"] = inertial.clipped_m2ps3.y();
     metrics["accel_clipped_z_m2ps3"] = inertial.clipped_m2ps3.z();

@@ -34,6 +34,7 @@ constexpr double kOutlying = 0.25;  // share of the paths
 // itself, and it is enough that the pose stands out at all.
 constexpr double kChance = 0.1;
 constexpr double kChanceAsStated = 0.5;
+constexpr double kGoodTracker_m = 0.1e-3;  // a drift per axis that a tracker may well have, if none is stated
 constexpr double kSlowAsStated = 1.3;
 constexpr double kRatioSigmas = 2.0;
 
@@ -167,7 +168,7 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                                 "and {:.0f} % of their points are not explained by drift",
                                                 evidence.slow_ratio, 100.0 * evidence.outlying)));
   }
-  const bool as_stated = evidence.slow_ratio <= kSlowAsStated && !(evidence.assumed_drift_m > 0.0);
+  const bool as_stated = evidence.slow_ratio <= kSlowAsStated && !(evidence.assumed_drift_m > kGoodTracker_m);
   if (evidence.mirror_log_odds > std::log(kMirrorOdds)) {
     out.push_back(make_verdict("mirror_image_fits",
                                fmt::format("the paths fit the mesh's mirror image {} (log odds {:.1f})",
