@@ -58,7 +58,7 @@ Json noticeable_json(HandVerdict verdict) {
   return verdict == HandVerdict::kUndetermined ? Json(nullptr) : Json(verdict == HandVerdict::kNoticeable);
 }
 
-// Without a threshold there is no verdict.
+// A value without a threshold has no verdict.
 Json to_json(const Difference& d) {
   return {{"a", number_or_null(d.a)},
           {"b", number_or_null(d.b)},
